@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// The engine contract: a world is one black-box rigid-body engine holding one sub-model.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "physics/scene/scene.hpp"
+#include "physics/types.hpp"
+
+namespace moraine {
+
+/// real: owned here. ghost: a copy of an element owned elsewhere; it meets real elements only.
+enum class Role : std::uint8_t { real, ghost };
+
+/// What a scene uses; an engine leaves the rest out.
+struct Features {
+  bool friction = true;
+  bool restitution = true;
+  bool bonds = true;
+  bool spheres_only = false;
+};
+
+/// What one world of an engine may hold. A scene that needs more is refused, or cut finer.
+struct Limits {
+  std::size_t elements = SIZE_MAX;       ///< shapes, ghosts and boundaries included
+  std::size_t contact_pairs = SIZE_MAX;
+  std::size_t worlds = SIZE_MAX;         ///< per process
+  double ghost_reserve = 0;              ///< share of the limit kept free for ghosts
+  /// Touching equal spheres (6 pairs each in a packed block) that fit, reserve not yet taken off.
+  std::size_t packed_spheres() const { return std::min(elements, contact_pairs / 12); }
+};
+
+/// Units and settings common to all worlds of a run. Lengths, times and masses inside an engine are divided by the
+/// units, so the same scene at another scale gives the same numbers.
+struct WorldSettings {
+  double length_unit = 1;  ///< typical element diameter [m]
+  double time_unit = 1;    ///< sqrt(length_unit / g), or of the order of 100 substeps without gravity [s]
+  double mass_unit = 1;    ///< typical element mass [kg]
+  Vec3 gravity = Vec3::Zero();
+  double substep = 0;      ///< [s]
+  int iterations = 10;
+  Features features;
+  Limits limits;
+  const Scene* scene = nullptr;  ///< shapes, materials and boundaries are read from here; outlives the world
+};
+
+/// A body as the world is asked to add it. Mass is the copy's share of the element's mass.
+struct Body {
+  ElementId id = 0;
+  std::uint32_t shape = 0;
+  std::uint32_t material = 0;
+  double mass = 0;
+  Role role = Role::real;
+  ElementState state;
+};
+
+/// A body's place in a world: dense, reused after removal, meaningless outside this world.
+using Slot = std::uint32_t;
+
+struct Contact {
+  ElementId a = 0;
+  ElementId b = 0;          ///< the other element, or the boundary's index if with_boundary
+  bool with_boundary = false;
+  Vec3 point = Vec3::Zero();   ///< world frame [m]
+  Vec3 normal = Vec3::Zero();  ///< unit, towards a
+  double overlap = 0;          ///< [m], negative: gap
+  Vec3 impulse = Vec3::Zero(); ///< on a, over the last step [N s]
+};
+
+/// Deterministic counters of the work of the last step; never a clock.
+struct StepWork {
+  std::uint64_t bodies = 0;
+  std::uint64_t contacts = 0;
+  std::uint64_t bonds = 0;
+};
+
+/// Contract. All quantities SI and world frame at this surface. Same calls in the same order give the same bits; no
+/// call depends on another world. Not thread-safe: one caller at a time per world; different worlds run concurrently.
+class World {
+ public:
+  virtual ~World() = default;
+
+  /// Errors: InputError if a limit is exceeded (names the limit and the count).
+  virtual Slot add(const Body& body) = 0;
+  virtual void remove(Slot slot) = 0;
+  virtual void set_state(Slot slot, const ElementState& state) = 0;
+  virtual ElementState state(Slot slot) const = 0;
+  /// Changes the copy's share of the element's mass; inertia follows in proportion.
+  virtual void set_mass(Slot slot, double mass) = 0;
+  virtual void apply_impulse(Slot slot, const Impulse& impulse) = 0;
+
+  /// Adds scene bond `bond` between two bodies of this world; dropped again with remove_bond or when it breaks.
+  virtual void add_bond(std::uint32_t bond, Slot a, Slot b) = 0;
+  virtual void remove_bond(std::uint32_t bond) = 0;
+  /// Scene bonds that broke during the last step, ascending.
+  virtual std::span<const std::uint32_t> broken_bonds() const = 0;
+
+  /// Advances by one substep from time t [s]: boundaries move as prescribed, forces act, bodies move.
+  virtual void step(double t) = 0;
+
+  /// Total impulse that boundaries gave to real bodies in the last step; angular part about the world origin.
+  virtual Impulse boundary_impulse() const = 0;
+  /// Contacts of the last step, ascending (a, b). Cost: linear in contacts; not for every step.
+  virtual std::vector<Contact> contacts() const = 0;
+  virtual StepWork work() const = 0;
+
+  /// Bit-exact image of the world; load() into a world made with the same settings continues as this one would.
+  virtual void save(std::vector<std::byte>& out) const = 0;
+  virtual void load(std::span<const std::byte> in) = 0;
+};
+
+/// A row of the engine table.
+struct Engine {
+  std::string_view name;
+  std::string_view help;
+  std::string_view precision;  ///< "float32" or "float64"
+  bool (*supports)(const Geometry&);
+  /// Seconds per element-step of one world of n bodies, relative: what `auto` splitting weighs.
+  double (*relative_cost)(double bodies);
+  std::unique_ptr<World> (*make)(const WorldSettings&, const Vec3& origin);
+};
+
+std::span<const Engine> engines();
+/// Errors: InputError that prints the table.
+const Engine& find_engine(std::string_view name);
+
+}  // namespace moraine
