@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs a step graph on the threads of this process.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "runtime/epoch.hpp"
+#include "runtime/schedule/scheduler.hpp"
+#include "runtime/trace/load.hpp"
+#include "runtime/trace/observer.hpp"
+
+namespace moraine::runtime {
+
+/// Workers are numbered slots that run one task at a time; oneTBB lends them threads. There may be more than cores.
+class Executor {
+ public:
+  /// Does the work of a task. Called from several threads; what one task writes its successors see.
+  using Work = std::function<void(Task task, int worker)>;
+
+  /// Errors: std::invalid_argument if workers < 1.
+  Executor(int workers, std::unique_ptr<Scheduler> scheduler);
+  ~Executor();
+
+  int workers() const { return workers_; }
+
+  /// Runs every node of the graph in the opening round and `epoch.rounds` more; returns when all are done. Does not
+  /// spin. Errors: if tasks throw, no more are started; when those running have ended, RunError for the first of the
+  /// failed by (round, stage, sub-model). std::logic_error if the policy breaks its contract. Cost: about a microsecond
+  /// per task beside its work.
+  LoadRecord run(const StepGraph& graph, const Epoch& epoch, const Work& work, TaskObserver* observer = nullptr);
+
+ private:
+  class Run;
+  struct Threads;
+
+  int workers_;
+  std::unique_ptr<Scheduler> scheduler_;
+  std::unique_ptr<Threads> threads_;
+};
+
+}  // namespace moraine::runtime
