@@ -109,7 +109,10 @@ class World {
   virtual std::vector<Contact> contacts() const = 0;
   virtual StepWork work() const = 0;
 
-  /// Bit-exact image of the world; load() into a world made with the same settings continues as this one would.
+  /// Forgets whatever a saved world cannot carry. Called in every world at the same step, whether it is saved, moved or
+  /// stays, so that all three continue alike.
+  virtual void canonicalise() = 0;
+  /// Bit-exact image of the world right after canonicalise(); load() into a world made with the same settings continues as this one would.
   virtual void save(std::vector<std::byte>& out) const = 0;
   virtual void load(std::span<const std::byte> in) = 0;
 };

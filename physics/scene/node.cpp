@@ -36,12 +36,11 @@ void Node::check_duplicates() const {
   }
 }
 
-void Node::allow(std::initializer_list<std::string_view> keys) const {
-  const std::span<const std::string_view> allowed(keys.begin(), keys.size());
+void Node::allow(std::span<const std::string_view> allowed) const {
   if (!is_map()) fail(fmt::format("{} is {}, expected a map with the keys {}", label(), kind(), listing(allowed)));
   for (const auto& entry : node_) {
     const std::string key = entry.first.Scalar();
-    if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+    if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
     document_->fail(
         path_.empty() ? key : path_ + "." + key, entry.first.Mark(),
         fmt::format("unknown key '{}', expected one of {}{}", key, listing(allowed), suggestion(key, allowed)));

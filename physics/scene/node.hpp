@@ -27,7 +27,8 @@ class Node {
   const std::string& raw() const { return node_.Scalar(); }
 
   /// Refuses keys that are not in the list, and keys given twice. Errors also if this is not a map.
-  void allow(std::initializer_list<std::string_view> keys) const;
+  void allow(std::span<const std::string_view> keys) const;
+  void allow(std::initializer_list<std::string_view> keys) const { allow(std::span(keys.begin(), keys.size())); }
   std::optional<Node> find(const std::string& key) const;
   Node at(const std::string& key, const std::string& expected = "it") const;
   /// The one key of `keys` that is present.
@@ -59,6 +60,7 @@ class Node {
   std::string text(const std::string& key, const std::string& fallback) const;
   Vec3 vector(const std::string& key, const Vec3& fallback) const;
 
+  const std::string& file() const { return document_->file(); }
   int line() const { return mark().line + 1; }
   std::string place() const { return document_->place(path_, mark()); }
   [[noreturn]] void fail(const std::string& what) const { document_->fail(path_, mark(), what); }

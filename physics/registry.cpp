@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of engines.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "physics/bullet/engine.hpp"
+#include "physics/errors.hpp"
+#include "physics/world.hpp"
+
+namespace moraine {
+
+std::span<const Engine> engines() {
+  static const std::array table{bullet::engine()};
+  return table;
+}
+
+const Engine& find_engine(std::string_view name) {
+  for (const Engine& e : engines())
+    if (e.name == name) return e;
+  std::string known;
+  for (const Engine& e : engines()) known += fmt::format("\n  {:<12} {}", e.name, e.help);
+  throw InputError(fmt::format("unknown engine '{}', expected one of:{}", name, known));
+}
+
+}  // namespace moraine

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sections `time`, `run` and `output`.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/scene/draft.hpp"
+
+namespace moraine {
+namespace {
+
+constexpr int most = std::numeric_limits<int>::max();
+
+int read_int(const Node& node, const std::string& key, int fallback, int low) {
+  return static_cast<int>(node.integer(key, fallback, low, most));
+}
+
+double read_fraction(const Node& node, const std::string& key, double fallback) {
+  const auto found = node.find(key);
+  return found ? found->within(0, 1) : fallback;
+}
+
+std::int64_t read_steps(const Node& node, double dt) {
+  constexpr double most_steps = 1e15;
+  if (node.one_of({"steps", "duration"}) == "steps")
+    return node.at("steps").integer(0, static_cast<std::int64_t>(most_steps));
+  const Node duration = node.at("duration");
+  const double steps = std::ceil(duration.not_negative() / dt - 1e-6);
+  if (steps > most_steps)
+    duration.fail(fmt::format("the duration is {} steps, expected at most {}", steps, most_steps));
+  return static_cast<std::int64_t>(std::max(steps, 0.0));
+}
+
+void read_label(const Node& node, TimeSettings::Label& label) {
+  node.allow({"unit", "per_step"});
+  label.unit = node.at("unit", "the name of the unit").text();
+  label.per_step = node.at("per_step", "units per step").positive();
+}
+
+int read_sub_models(const Node& node) {
+  const auto found = node.find("sub_models");
+  if (!found || found->raw() == "auto") return 0;
+  return static_cast<int>(found->integer(1, most));
+}
+
+}  // namespace
+
+void read_time(const Node& root, TimeSettings& time) {
+  const Node node = root.at("time", "dt and steps or duration");
+  node.allow({"dt", "steps", "duration", "substeps", "label"});
+  time.dt = node.at("dt", "the length of a step [s]").positive();
+  time.steps = read_steps(node, time.dt);
+  time.substeps = read_int(node, "substeps", time.substeps, 1);
+  if (const auto label = node.find("label")) read_label(*label, time.label);
+}
+
+void read_run(const Node& root, RunSettings& run) {
+  const auto node = root.find("run");
+  if (!node) return;
+  node->allow({"engine", "engine_profile", "sub_models", "split", "coupling", "coupling_leak", "skin",
+               "recut_ghost_share", "iterations", "scheduler", "balancer", "balance_every", "threads",
+               "checkpoint_every", "max_speed"});
+  run.engine = node->text("engine", run.engine);
+  run.engine_profile = node->text("engine_profile", run.engine_profile);
+  run.sub_models = read_sub_models(*node);
+  run.split = node->text("split", run.split);
+  run.coupling = node->text("coupling", run.coupling);
+  run.coupling_leak = read_fraction(*node, "coupling_leak", run.coupling_leak);
+  run.skin = node->not_negative("skin", run.skin);
+  run.recut_ghost_share = node->not_negative("recut_ghost_share", run.recut_ghost_share);
+  run.iterations = read_int(*node, "iterations", run.iterations, 1);
+  run.scheduler = node->text("scheduler", run.scheduler);
+  run.balancer = node->text("balancer", run.balancer);
+  run.balance_every = read_int(*node, "balance_every", run.balance_every, 0);
+  run.threads = read_int(*node, "threads", run.threads, 0);
+  run.checkpoint_every = read_int(*node, "checkpoint_every", run.checkpoint_every, 0);
+  run.max_speed = node->not_negative("max_speed", run.max_speed);
+}
+
+void read_output(const Node& root, OutputSettings& output) {
+  const auto node = root.find("output");
+  if (!node) return;
+  node->allow({"every", "formats", "pictures", "picture_width"});
+  output.every = read_int(*node, "every", output.every, 0);
+  output.pictures = node->boolean("pictures", output.pictures);
+  output.picture_width = static_cast<int>(node->integer("picture_width", output.picture_width, 16, 16384));
+  const auto formats = node->find("formats");
+  if (!formats) return;
+  output.formats.clear();
+  for (const Node& item : formats->items("a list of formats")) {
+    static const std::vector<std::string> known = {"pvd", "vtkhdf", "lammps_dump", "csv"};
+    const std::string format = item.text();
+    if (std::find(known.begin(), known.end(), format) == known.end()) {
+      item.fail(fmt::format("unknown format '{}', expected pvd, vtkhdf, lammps_dump or csv", format));
+    }
+    output.formats.push_back(format);
+  }
+}
+
+}  // namespace moraine
