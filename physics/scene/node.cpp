@@ -15,7 +15,7 @@ Node::Node(const Document& document, const YAML::Node& node, std::string path, Y
 Node Node::root(const Document& document) { return {document, document.root(), "", document.root().Mark()}; }
 
 /// Values that an override made have no mark of their own.
-const YAML::Mark Node::mark() const {
+YAML::Mark Node::mark() const {
   const YAML::Mark own = node_.Mark();
   return own.is_null() ? parent_mark_ : own;
 }

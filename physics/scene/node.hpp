@@ -66,7 +66,7 @@ class Node {
   [[noreturn]] void fail(const std::string& what) const { document_->fail(path_, mark(), what); }
 
  private:
-  const YAML::Mark mark() const;
+  YAML::Mark mark() const;
   std::string label() const;
   std::string kind() const;
   void check_duplicates() const;
