@@ -14,9 +14,10 @@ constexpr int attempts_per_sphere = 20000;
 constexpr std::uint32_t none = UINT32_MAX;
 
 /// The lattice relative to the centre of its first sphere.
-class Hcp {
+class Steps {
  public:
-  explicit Hcp(const HcpLattice& lattice) : step_(lattice.diameter * lattice.spacing) {}
+  explicit Steps(const Lattice& lattice)
+      : hcp_(lattice.kind == Lattice::Kind::hcp), step_(lattice.diameter * lattice.spacing) {}
 
   Vec3 at(std::int64_t i, std::int64_t j, std::int64_t k) const {
     return {x_offset(j, k) + step_ * static_cast<double>(i), y_offset(k) + row() * static_cast<double>(j),
@@ -24,20 +25,21 @@ class Hcp {
   }
   /// Points along x, y, z that stay within `room` of the first.
   std::int64_t columns(double room, std::int64_t j, std::int64_t k) const {
-    return steps(room - x_offset(j, k), step_);
+    return within(room - x_offset(j, k), step_);
   }
-  std::int64_t rows(double room, std::int64_t k) const { return steps(room - y_offset(k), row()); }
-  std::int64_t layers(double room) const { return steps(room, layer()); }
+  std::int64_t rows(double room, std::int64_t k) const { return within(room - y_offset(k), row()); }
+  std::int64_t layers(double room) const { return within(room, layer()); }
 
  private:
-  double row() const { return step_ * std::sqrt(3.0) / 2; }
-  double layer() const { return step_ * std::sqrt(2.0 / 3.0); }
-  double x_offset(std::int64_t j, std::int64_t k) const { return (j + k) % 2 == 0 ? 0 : step_ / 2; }
-  double y_offset(std::int64_t k) const { return k % 2 == 0 ? 0 : row() / 3; }
-  static std::int64_t steps(double room, double step) {
+  double row() const { return hcp_ ? step_ * std::sqrt(3.0) / 2 : step_; }
+  double layer() const { return hcp_ ? step_ * std::sqrt(2.0 / 3.0) : step_; }
+  double x_offset(std::int64_t j, std::int64_t k) const { return !hcp_ || (j + k) % 2 == 0 ? 0 : step_ / 2; }
+  double y_offset(std::int64_t k) const { return !hcp_ || k % 2 == 0 ? 0 : row() / 3; }
+  static std::int64_t within(double room, double step) {
     return room < -1e-9 * step ? 0 : static_cast<std::int64_t>(std::floor(room / step + 1e-9)) + 1;
   }
 
+  bool hcp_;
   double step_;
 };
 
@@ -105,32 +107,32 @@ std::vector<std::uint32_t> largest_first(std::span<const double> radii) {
 
 }  // namespace
 
-std::vector<Vec3> pack_hcp(const HcpLattice& lattice, const Bounds& box, std::size_t count) {
-  const Hcp hcp(lattice);
+std::vector<Vec3> pack_lattice(const Lattice& lattice, const Bounds& box, std::size_t count) {
+  const Steps steps(lattice);
   const Vec3 room = box.max - box.min - Vec3::Constant(lattice.diameter);
   const Vec3 first = box.min + Vec3::Constant(lattice.diameter / 2);
   std::vector<Vec3> points;
-  for (std::int64_t k = 0; k < hcp.layers(room.z()); ++k) {
-    for (std::int64_t j = 0; j < hcp.rows(room.y(), k); ++j) {
-      for (std::int64_t i = 0; i < hcp.columns(room.x(), j, k); ++i) {
+  for (std::int64_t k = 0; k < steps.layers(room.z()); ++k) {
+    for (std::int64_t j = 0; j < steps.rows(room.y(), k); ++j) {
+      for (std::int64_t i = 0; i < steps.columns(room.x(), j, k); ++i) {
         if (points.size() == count) return points;
-        points.push_back(first + hcp.at(i, j, k));
+        points.push_back(first + steps.at(i, j, k));
       }
     }
   }
   return points;
 }
 
-std::vector<Vec3> pack_hcp(const HcpLattice& lattice, const std::array<std::int64_t, 3>& cells, const Vec3& corner,
-                           std::size_t count) {
-  const Hcp hcp(lattice);
+std::vector<Vec3> pack_lattice(const Lattice& lattice, const std::array<std::int64_t, 3>& cells, const Vec3& corner,
+                               std::size_t count) {
+  const Steps steps(lattice);
   const Vec3 first = corner + Vec3::Constant(lattice.diameter / 2);
   std::vector<Vec3> points;
   for (std::int64_t k = 0; k < cells[2]; ++k) {
     for (std::int64_t j = 0; j < cells[1]; ++j) {
       for (std::int64_t i = 0; i < cells[0]; ++i) {
         if (points.size() == count) return points;
-        points.push_back(first + hcp.at(i, j, k));
+        points.push_back(first + steps.at(i, j, k));
       }
     }
   }

@@ -12,17 +12,20 @@
 
 namespace moraine {
 
-/// Hexagonal close packing of equal spheres: rows along x, layers stacked along z as A B A B.
-struct HcpLattice {
+/// A regular packing of equal spheres. hcp: hexagonal close packing, rows along x, layers stacked along z as A B A B.
+/// cubic: simple cubic packing, columns along x, y and z.
+struct Lattice {
+  enum class Kind { hcp, cubic };
+  Kind kind = Kind::hcp;
   double diameter = 1;  ///< [m]
   double spacing = 1;   ///< between neighbours' centres [diameters]
 };
 
 /// Centres of the spheres that lie wholly inside the box, layer by layer from the bottom; at most `count` of them.
-std::vector<Vec3> pack_hcp(const HcpLattice& lattice, const Bounds& box, std::size_t count = SIZE_MAX);
+std::vector<Vec3> pack_lattice(const Lattice& lattice, const Bounds& box, std::size_t count = SIZE_MAX);
 /// `cells` spheres along x, y and z, the lowest touching `corner`; at most `count` of them, from the bottom.
-std::vector<Vec3> pack_hcp(const HcpLattice& lattice, const std::array<std::int64_t, 3>& cells, const Vec3& corner,
-                           std::size_t count = SIZE_MAX);
+std::vector<Vec3> pack_lattice(const Lattice& lattice, const std::array<std::int64_t, 3>& cells, const Vec3& corner,
+                               std::size_t count = SIZE_MAX);
 
 /// Moves every point by up to `by` [m] along each axis.
 void jitter(std::vector<Vec3>& points, double by, std::uint64_t seed);

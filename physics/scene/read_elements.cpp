@@ -39,29 +39,29 @@ std::optional<double> read_mass(const Node& node) {
 
 std::uint64_t read_seed(const Node& node) { return static_cast<std::uint64_t>(node.integer("seed", 1, 0)); }
 
-// --- hcp
+// --- hcp, cubic
 
-std::vector<Vec3> lattice_points(const Node& node, const HcpLattice& lattice) {
+std::vector<Vec3> lattice_points(const Node& node, const Lattice& lattice) {
   const auto count = static_cast<std::size_t>(node.integer("count", most_elements, 0, most_elements));
   if (node.one_of({"box", "cells"}) == "box") {
     if (const auto at = node.find("at")) at->fail("'at' goes with 'cells', expected the place in 'box'");
-    return pack_hcp(lattice, node.at("box").box(), count);
+    return pack_lattice(lattice, node.at("box").box(), count);
   }
   std::array<std::int64_t, 3> cells{};
   const std::vector<Node> numbers = node.at("cells").items("three numbers of spheres [x, y, z]", 3);
   for (std::size_t a = 0; a < 3; ++a) cells[a] = numbers[a].integer(1, most_elements);
-  return pack_hcp(lattice, cells, node.vector("at", Vec3::Zero()), count);
+  return pack_lattice(lattice, cells, node.vector("at", Vec3::Zero()), count);
 }
 
-void read_hcp(const Entry& entry) {
+void read_lattice(const Entry& entry, Lattice::Kind kind) {
   const Node& node = entry.node;
   node.allow({"packing", "shape", "material", "mass", "id_start", "velocity", "angular_velocity", "box", "cells", "at",
               "count", "spacing", "jitter", "seed"});
   const Node shape_node = node.at("shape", "the shape of the spheres");
   const std::uint32_t shape = read_shape(shape_node, entry.draft).index;
   const Sphere* sphere = entry.draft.scene.shapes[shape].sphere();
-  if (!sphere) shape_node.fail("hcp packs spheres only, expected {sphere: radius}");
-  const HcpLattice lattice{2 * sphere->radius, node.positive("spacing", 1)};
+  if (!sphere) shape_node.fail("a lattice packs spheres only, expected {sphere: radius}");
+  const Lattice lattice{kind, 2 * sphere->radius, node.positive("spacing", 1)};
 
   std::vector<Vec3> points = lattice_points(node, lattice);
   const std::int64_t count = node.integer("count", static_cast<std::int64_t>(points.size()), 0);
@@ -221,16 +221,17 @@ void read_file(const Entry& entry) {
 }
 
 void read_entry(const Node& node, Draft& draft) {
-  const Node packing = node.at("packing", "one of hcp, random, list, file");
+  const Node packing = node.at("packing", "one of hcp, cubic, random, list, file");
   Entry entry{
       node, draft, read_material(node, draft.scene), read_mass(node), read_twist(node), draft.add_source(node.place())};
   draft.set_next_id(static_cast<ElementId>(node.integer("id_start", draft.next_id(), 0, last_id)));
   const std::string kind = packing.text();
-  if (kind == "hcp") return read_hcp(entry);
+  if (kind == "hcp") return read_lattice(entry, Lattice::Kind::hcp);
+  if (kind == "cubic") return read_lattice(entry, Lattice::Kind::cubic);
   if (kind == "random") return read_random(entry);
   if (kind == "list") return read_list(entry);
   if (kind == "file") return read_file(entry);
-  packing.fail(fmt::format("unknown packing '{}', expected one of hcp, random, list, file", kind));
+  packing.fail(fmt::format("unknown packing '{}', expected one of hcp, cubic, random, list, file", kind));
 }
 
 }  // namespace
