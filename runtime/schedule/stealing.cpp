@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every worker goes on with what it released last; one that has nothing takes the oldest task of the fullest worker.
+// Every worker goes on with what it released first; one that has nothing takes the oldest task of the fullest worker.
+// Latest first, as with independent tasks, would let some sub-models run ahead until the others, one behind the other,
+// keep a single worker busy: 7 sub-models in a row then use two workers to 88 %, oldest first to 99 %.
 #include <algorithm>
 #include <deque>
 
@@ -25,9 +27,7 @@ class Stealing final : public Scheduler {
   std::optional<Task> next(int worker) override {
     auto& own = tasks_[static_cast<std::size_t>(worker)];
     if (own.empty()) return steal();
-    const Task task = own.back();
-    own.pop_back();
-    return task;
+    return pop_oldest(own);
   }
 
  private:
@@ -35,8 +35,12 @@ class Stealing final : public Scheduler {
     const auto fullest = std::max_element(tasks_.begin(), tasks_.end(),
                                           [](const auto& a, const auto& b) { return a.size() < b.size(); });
     if (fullest->empty()) return std::nullopt;
-    const Task task = fullest->front();
-    fullest->pop_front();
+    return pop_oldest(*fullest);
+  }
+
+  static Task pop_oldest(std::deque<Task>& tasks) {
+    const Task task = tasks.front();
+    tasks.pop_front();
     return task;
   }
 
