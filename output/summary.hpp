@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run amounts to: summary.json, and a short table for the terminal.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "output/frame.hpp"
+
+namespace moraine {
+
+/// SI units. The members are the keys of summary.json; nested ones are objects there.
+struct Summary {
+  std::string scene, engine, precision, coupling, split, scheduler, balancer;
+  int ranks = 1;
+  int threads_per_rank = 1;
+  std::uint64_t elements = 0;
+  std::uint32_t sub_models = 0;
+  std::int64_t steps = 0;
+  int substeps = 1;
+  double dt = 0;                     ///< of a step [s]
+  double time = 0;                   ///< simulated, at the end [s]
+  double wall_s = 0;                 ///< with reading and writing
+  double loop_wall_s = 0;            ///< the steps alone
+  double element_steps_per_s = 0;    ///< elements x steps x substeps / loop_wall_s
+  std::uint64_t peak_rss_bytes = 0;  ///< sum over ranks
+  std::string state_hash;            ///< 16 hex digits
+  struct Ghosts {
+    double mean = 0;
+    std::uint64_t max = 0, final = 0;
+    double fraction_mean = 0, fraction_final = 0;  ///< of the elements
+  } ghosts;
+  struct Bonds {
+    std::uint64_t total = 0, broken = 0;
+  } bonds;
+  struct Residual {
+    double linear = 0, angular = 0;
+  } momentum_residual;        ///< relative: change not explained by external impulse
+  double kinetic_energy = 0;  ///< [J]
+  std::array<double, 3> center_of_mass{};
+  double x95 = 0;  ///< 95 % of the elements have a smaller x [m]
+  struct Overlap {
+    double max = 0, mean = 0;
+  } overlap;  ///< [element diameters]
+  double coupling_residual = 0;
+  struct Load {
+    double imbalance = 1;         ///< largest over mean busy time
+    double utilisation = 0;       ///< share of the threads' time spent in tasks
+    double waiting_fraction = 0;  ///< share spent waiting for others
+    std::uint64_t migrations = 0;
+  } load;
+  std::map<std::string, double> step_share;  ///< share of the busy time per stage
+  std::uint64_t recuts = 0;                  ///< times the scene was split anew
+  std::vector<std::string> warnings;
+};
+
+/// Replaces `path` in one move; numbers that are not finite become null. Errors: IoError naming the path.
+void write_summary(const Summary& summary, const std::filesystem::path& path);
+
+/// A few aligned lines, warnings last.
+std::string summary_text(const Summary& summary);
+
+/// The x that `share` (0 .. 1) of the bodies lie below, the nearest rank; 0 if there are none [m]. Cost: linear.
+double x_quantile(const Frame::Bodies& bodies, double share);
+
+}  // namespace moraine
