@@ -8,6 +8,7 @@
 #include <chrono>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -43,10 +44,7 @@ class Executor::Run {
         observer_(observer),
         dispatcher_(*owner.scheduler_, graph, owner.workers_, epoch.rounds_with_opening()),
         load_(graph, owner.workers_),
-        current_(static_cast<std::size_t>(owner.workers_)),
-        starting_(static_cast<std::size_t>(owner.workers_)) {
-    for (auto& list : starting_) list.reserve(starting_.size());
-  }
+        current_(static_cast<std::size_t>(owner.workers_)) {}
 
   /// Called inside the arena.
   void all() {
@@ -72,67 +70,82 @@ class Executor::Run {
     void operator()() const { run->keep_busy(worker); }
   };
 
+  /// A task that was run.
+  struct Ended {
+    Task task;
+    int worker;
+    Clock::time_point begin;
+    Clock::time_point end;
+    std::exception_ptr error;
+  };
+
   void start() {
     std::vector<Assignment> starting;
     {
       const std::lock_guard lock(mutex_);
       dispatcher_.start(starting);
-      for (const Assignment& a : starting) at_hand(a.worker) = a.task;
+      put_at_hand(starting);
     }
-    for (const Assignment& a : starting) group_.run(Slot{this, a.worker});
+    wake(starting, Scheduler::nobody);
   }
 
   void keep_busy(int worker) {
-    Task task = first_task(worker);
-    bool more = true;
-    while (more) {
-      const Clock::time_point begin = Clock::now();
-      const std::exception_ptr error = attempt(task, worker);
-      more = finish(task, worker, begin, Clock::now(), error);
+    std::vector<Assignment> starting;  // this call's: the worker may be busy again before it returns
+    std::optional<Task> task = first_task(worker);
+    while (task) {
+      const Ended ended = attempt(*task, worker);
+      starting.clear();
+      settle(ended, starting);
+      task = wake(starting, worker);
     }
   }
 
   Task first_task(int worker) {
     const std::lock_guard lock(mutex_);
-    return at_hand(worker);
+    return current_[static_cast<std::size_t>(worker)];
   }
 
-  std::exception_ptr attempt(Task task, int worker) const {
+  Ended attempt(Task task, int worker) const {
+    Ended ended{task, worker, Clock::now(), {}, nullptr};
     try {
       work_(task, worker);
     } catch (...) {
-      return std::current_exception();
+      ended.error = std::current_exception();
     }
-    return nullptr;
+    ended.end = Clock::now();
+    return ended;
   }
 
-  /// Wakes other workers, and says whether this one goes on with `task`.
-  bool finish(Task& task, int worker, Clock::time_point begin, Clock::time_point end, const std::exception_ptr& error) {
-    std::vector<Assignment>& starting = starting_[static_cast<std::size_t>(worker)];
-    starting.clear();
-    {
-      const std::lock_guard lock(mutex_);
-      record(task, worker, begin, end, error);
-      dispatch(task, worker, starting);
-      for (const Assignment& a : starting) at_hand(a.worker) = a.task;
-    }
-    bool more = false;
+  void settle(const Ended& ended, std::vector<Assignment>& starting) {
+    const std::lock_guard lock(mutex_);
+    record(ended);
+    dispatch(ended, starting);
+    put_at_hand(starting);
+  }
+
+  void put_at_hand(const std::vector<Assignment>& starting) {
+    for (const Assignment& a : starting) current_[static_cast<std::size_t>(a.worker)] = a.task;
+  }
+
+  /// Wakes other workers, and returns what `self` goes on with.
+  std::optional<Task> wake(const std::vector<Assignment>& starting, int self) {
+    std::optional<Task> own;
     for (const Assignment& a : starting) {
-      if (a.worker == worker) {
-        more = true;
-        task = a.task;
+      if (a.worker == self) {
+        own = a.task;
       } else {
         group_.run(Slot{this, a.worker});
       }
     }
-    return more;
+    return own;
   }
 
-  void record(Task task, int worker, Clock::time_point begin, Clock::time_point end, const std::exception_ptr& error) {
-    if (error) return keep_first(task, error);
-    load_.add(graph_, task, worker, seconds(end - begin));
+  void record(const Ended& e) {
+    if (e.error) return keep_first(e.task, e.error);
+    load_.add(graph_, e.task, e.worker, seconds(e.end - e.begin));
     if (observer_)
-      observer_->task_done({graph_.stage(task.node), graph_.sub_model(task.node), round(task), worker, begin, end});
+      observer_->task_done(
+          {graph_.stage(e.task.node), graph_.sub_model(e.task.node), round(e.task), e.worker, e.begin, e.end});
   }
 
   void keep_first(Task task, const std::exception_ptr& error) {
@@ -143,9 +156,9 @@ class Executor::Run {
   }
 
   /// An error of the policy must not leave a oneTBB task.
-  void dispatch(Task task, int worker, std::vector<Assignment>& starting) {
+  void dispatch(const Ended& ended, std::vector<Assignment>& starting) {
     try {
-      dispatcher_.finish(task, worker, starting);
+      dispatcher_.finish(ended.task, ended.worker, starting);
     } catch (...) {
       dispatcher_.stop();
       starting.clear();
@@ -159,7 +172,6 @@ class Executor::Run {
     return position_a != position_b ? position_a < position_b : a.node < b.node;
   }
 
-  Task& at_hand(int worker) { return current_[static_cast<std::size_t>(worker)]; }
   Round round(Task task) const { return epoch_.round(task.round); }
   const std::string& stage_name(Task task) const {
     return graph_.stages[static_cast<std::size_t>(graph_.stage(task.node))];
@@ -173,10 +185,9 @@ class Executor::Run {
   std::mutex mutex_;
   Dispatcher dispatcher_;
   LoadRecord load_;
-  std::vector<Task> current_;                      ///< per worker, from being assigned until it starts
-  std::vector<std::vector<Assignment>> starting_;  ///< per worker, its own buffer
-  std::exception_ptr broken_;                      ///< the policy's
-  std::exception_ptr failed_;                      ///< the first failed task's
+  std::vector<Task> current_;  ///< per worker, from being assigned until it starts
+  std::exception_ptr broken_;  ///< the policy's
+  std::exception_ptr failed_;  ///< the first failed task's
   Task first_failed_;
   tbb::task_group group_;
 };
