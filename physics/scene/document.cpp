@@ -56,6 +56,14 @@ YAML::Node child(const YAML::Node& parent, const std::string& key) {
   return index < parent.size() ? parent[index] : YAML::Node(YAML::NodeType::Undefined);
 }
 
+void put(YAML::Node& parent, const std::string& key, const YAML::Node& value) {
+  if (parent.IsSequence()) {
+    parent[std::stoul(key)] = value;
+  } else {
+    parent[key] = value;
+  }
+}
+
 }  // namespace
 
 std::string listing(std::span<const std::string_view> words) { return fmt::format("{}", fmt::join(words, ", ")); }
@@ -83,8 +91,9 @@ Document::Document(const std::filesystem::path& file, const std::vector<Override
 
 void Document::load() {
   std::ifstream in(file_, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file_)) throw InputError(file_ + ": cannot read, expected a scene file");
   std::stringstream text;
-  if (!in || !(text << in.rdbuf())) throw InputError(file_ + ": cannot read, expected a scene file");
+  text << in.rdbuf();
   try {
     root_ = YAML::Load(text);
   } catch (const YAML::Exception& e) {
@@ -113,36 +122,43 @@ std::string Document::resolve(const Override& change) const {
                              suggestion(parts.front(), known)));
 }
 
-void Document::apply(const Override& change) {
-  const std::string path = resolve(change);
-  YAML::Node value;
+YAML::Node Document::value_of(const Override& change) const {
   try {
-    value.reset(YAML::Load(change.value));
+    return YAML::Load(change.value);
   } catch (const YAML::Exception& e) {
     refuse(change, e.msg + ", expected a YAML value");
   }
-  const std::vector<std::string> parts = split_path(path);
+}
+
+/// Refuses to go below a value, or to an item that a list does not have.
+void Document::check_step(const Override& change, const YAML::Node& parent, const std::string& key) const {
+  if (parent.IsScalar())
+    refuse(change, fmt::format("'{}' would be below a value, expected a map or a list there", key));
+  if (parent.IsSequence() && !child(parent, key).IsDefined()) {
+    refuse(change,
+           fmt::format("a list of {} has no item '{}', expected a number below {}", parent.size(), key, parent.size()));
+  }
+}
+
+void Document::apply(const Override& change) {
+  const std::string path = resolve(change);
+  const std::vector<std::string> keys = split_path(path);
+  const YAML::Node value = value_of(change);
   YAML::Node parent;
   parent.reset(root_);
   std::string reached;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    reached += (i > 0 ? "." : "") + parts[i];
-    const bool last = i + 1 == parts.size();
-    const YAML::Node found = child(parent, parts[i]);
-    if (parent.IsSequence() && !found.IsDefined()) {
-      refuse(change, fmt::format("no item '{}', expected 0 to {}", reached, static_cast<int>(parent.size()) - 1));
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const std::string& key = keys[i];
+    check_step(change, parent, key);
+    reached += (i > 0 ? "." : "") + key;
+    const YAML::Node found = child(parent, key);
+    const bool last = i + 1 == keys.size();
+    const bool make = last || !found.IsDefined() || found.IsNull();
+    if (make) {
+      origins_[reached] = change.origin + " " + change.key;
+      put(parent, key, last ? value : YAML::Node(YAML::NodeType::Map));
     }
-    if (parent.IsScalar()) refuse(change, fmt::format("'{}' has no keys, it is a value", reached));
-    if (last || !found.IsDefined() || found.IsNull())
-      origins_[reached] = fmt::format("{} {}", change.origin, change.key);
-    if (last && parent.IsSequence()) {
-      parent[std::stoul(parts[i])] = value;
-    } else if (last) {
-      parent[parts[i]] = value;
-    } else {
-      if (!found.IsDefined() || found.IsNull()) parent[parts[i]] = YAML::Node(YAML::NodeType::Map);
-      parent.reset(child(parent, parts[i]));
-    }
+    if (!last) parent.reset(child(parent, key));
   }
   drop_rival(path);
 }
@@ -165,8 +181,9 @@ void Document::read_parameters() {
       expressions_.define(name, expressions_.evaluate(entry.second.Scalar()));
     } catch (const ExpressionError& e) {
       fail(path, entry.second.Mark(),
-           fmt::format("parameter '{}': {}, expected a number or an expression of the parameters above it ({})", name,
-                       e.what(), fmt::join(expressions_.names(), ", ")));
+           fmt::format(
+               "parameter '{}': {}, expected a number or an expression of the parameters above it{}", name, e.what(),
+               expressions_.names().empty() ? "" : fmt::format(" ({})", fmt::join(expressions_.names(), ", "))));
     }
   }
 }

@@ -34,7 +34,8 @@ class Document {
   void load();
   void apply(const Override& change);
   std::string resolve(const Override& change) const;
-  void set(const std::string& path, const YAML::Node& value, const std::string& origin);
+  YAML::Node value_of(const Override& change) const;
+  void check_step(const Override& change, const YAML::Node& parent, const std::string& key) const;
   void drop_rival(const std::string& path);
   void read_parameters();
   [[noreturn]] void refuse(const Override& change, const std::string& why) const;

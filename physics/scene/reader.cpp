@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "physics/errors.hpp"
 #include "physics/scene/draft.hpp"
 
 namespace moraine {
@@ -12,9 +13,7 @@ constexpr std::array<std::string_view, 11> top_keys = {"name",           "parame
                                                        "material_pairs", "elements",   "boundaries", "bonds",
                                                        "time",           "run",        "output"};
 
-}  // namespace
-
-Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+Scene read(const std::filesystem::path& file, const std::vector<Override>& overrides) {
   const Document document(file, overrides, top_keys);
   const Node root = Node::root(document);
   root.allow(top_keys);
@@ -32,6 +31,16 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   read_boundaries(root, draft);
   read_bonds(root, draft);
   return std::move(scene);
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  try {
+    return read(file, overrides);
+  } catch (const YAML::Exception& e) {
+    throw InputError(file.string() + ": " + e.what() + ", expected a scene");
+  }
 }
 
 }  // namespace moraine

@@ -38,6 +38,8 @@ struct RunSettings {
 };
 
 struct OutputSettings {
+  std::string folder;                           ///< empty: out/NAME
+  bool quiet = false;                           ///< no progress and no table at the end
   int every = 0;                                ///< steps between frames; 0: first and last only
   std::vector<std::string> formats = {"pvd"};   ///< pvd, vtkhdf, lammps_dump, csv
   bool pictures = true;                         ///< PNG of the first and last frame
