@@ -193,7 +193,7 @@ std::string Document::place(const std::string& path, const YAML::Mark& mark) con
        at.resize(at.find_last_of('.') + 1), at.resize(at.empty() ? 0 : at.size() - 1)) {
     if (const auto found = origins_.find(at); found != origins_.end()) return found->second;
   }
-  return fmt::format("{}:{}:{}", file_, mark.line + 1, mark.column + 1);
+  return fmt::format("{}:{}:{}", file_, std::max(mark.line, 0) + 1, std::max(mark.column, 0) + 1);
 }
 
 void Document::fail(const std::string& path, const YAML::Mark& mark, const std::string& what) const {
