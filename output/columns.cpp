@@ -43,6 +43,15 @@ const Column& find_column(const std::vector<Column>& columns, std::string_view n
   return *found;
 }
 
+template <class T>
+const std::vector<T>& typed_values(const Column& column, std::size_t components) {
+  const auto* values = std::get_if<std::vector<T>>(&column.values);
+  if (!values || column.components != components) {
+    throw IoError(fmt::format("array '{}' holds {} x {}", column.name, column.components, vtk_type(column)));
+  }
+  return *values;
+}
+
 void expect_length(const Frame::Bodies& bodies, std::size_t tuples) {
   if (tuples != bodies.size()) throw IoError("arrays differ in length");
 }
@@ -90,12 +99,7 @@ std::vector<Column> body_columns(const Scene& scene, const Frame::Bodies& bodies
 
 template <class T>
 const std::vector<T>& column_values(const std::vector<Column>& columns, std::string_view name, std::size_t components) {
-  const Column& column = find_column(columns, name);
-  const auto* values = std::get_if<std::vector<T>>(&column.values);
-  if (!values || column.components != components) {
-    throw IoError(fmt::format("array '{}' holds {} x {}", name, column.components, vtk_type(column)));
-  }
-  return *values;
+  return typed_values<T>(find_column(columns, name), components);
 }
 
 template const std::vector<double>& column_values(const std::vector<Column>&, std::string_view, std::size_t);
@@ -108,7 +112,7 @@ Frame::Bodies bodies_from_columns(const Column& position, const std::vector<Colu
   bodies.id = column_values<std::uint32_t>(columns, "id", 1);
   bodies.sub_model = column_values<std::uint32_t>(columns, "sub_model", 1);
   bodies.shape = column_values<std::uint32_t>(columns, "shape", 1);
-  const auto& points = column_values<double>({position}, position.name, 3);
+  const auto& points = typed_values<double>(position, 3);
   const auto& turns = column_values<double>(columns, "orientation", 4);
   const auto& speeds = column_values<double>(columns, "velocity", 3);
   const auto& spins = column_values<double>(columns, "angular_velocity", 3);
@@ -131,7 +135,7 @@ Column boundary_column(const std::vector<Pose>& poses) {
 }
 
 std::vector<Pose> poses_from_column(const Column& column) {
-  const auto& v = column_values<double>({column}, column.name, 7);
+  const auto& v = typed_values<double>(column, 7);
   std::vector<Pose> poses;
   for (std::size_t i = 0; i + 7 <= v.size(); i += 7) {
     poses.push_back({Vec3(v[i], v[i + 1], v[i + 2]), Quat(v[i + 3], v[i + 4], v[i + 5], v[i + 6])});
