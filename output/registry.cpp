@@ -9,6 +9,7 @@ namespace {
 
 constexpr WriterRow kWriters[] = {
     {"pvd", "ParaView/VTK time series: elements.pvd, ghosts.pvd, bonds.pvd with compressed .vtu pieces", make_pvd},
+    {"vtkhdf", "one temporal VTKHDF 2 file, elements.vtkhdf, for ParaView 5.12 and newer", make_vtkhdf},
     {"lammps_dump", "LAMMPS text dump, dump.lammpstrj, for OVITO", make_lammps_dump},
     {"csv", "a table per frame, frames/elements_NNNNNN.csv", make_csv},
 };

@@ -7,6 +7,7 @@
 namespace moraine {
 
 std::unique_ptr<Writer> make_pvd(const Scene& scene, const std::filesystem::path& folder);
+std::unique_ptr<Writer> make_vtkhdf(const Scene& scene, const std::filesystem::path& folder);
 std::unique_ptr<Writer> make_lammps_dump(const Scene& scene, const std::filesystem::path& folder);
 std::unique_ptr<Writer> make_csv(const Scene& scene, const std::filesystem::path& folder);
 
