@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reader of VTK 9.1 knows VTKHDF 1 only, so the file is checked against the format's description by HDF5 itself.
+#include <gtest/gtest.h>
+
+#include "output/hdf5_file.hpp"
+#include "output/writer.hpp"
+#include "output_sample.hpp"
+#include "physics/errors.hpp"
+
+namespace moraine {
+namespace {
+
+class VtkHdf : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto writer = find_writer("vtkhdf").make(scene_, folder_.path());
+    writer->write(sample::frame(scene_, 0));
+    Frame shorter = sample::frame(scene_, 60);
+    for (int i = 0; i < 3; ++i) {
+      shorter.elements.id.pop_back();
+      shorter.elements.sub_model.pop_back();
+      shorter.elements.shape.pop_back();
+      shorter.elements.state.pop_back();
+    }
+    writer->write(shorter);
+    writer->write(sample::frame(scene_, 120));
+    writer->finish();
+  }
+  template <class T>
+  std::vector<T> table(const std::string& name, hid_t type, std::vector<hsize_t>* shape = nullptr) {
+    const Hdf5Handle file(H5Fopen((folder_ / "elements.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    const Hdf5Handle set(H5Dopen2(file, ("/VTKHDF/" + name).c_str(), H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle space(H5Dget_space(set), H5Sclose);
+    if (shape) {
+      shape->resize(H5Sget_simple_extent_ndims(space));
+      H5Sget_simple_extent_dims(space, shape->data(), nullptr);
+    }
+    std::vector<T> values(H5Sget_simple_extent_npoints(space));
+    EXPECT_GE(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0) << name;
+    return values;
+  }
+  std::vector<std::int64_t> integers(const std::string& name) { return table<std::int64_t>(name, H5T_NATIVE_INT64); }
+
+  using Integers = std::vector<std::int64_t>;
+  const sample::Folder folder_{"vtkhdf"};
+  const Scene scene_ = sample::scene();
+};
+
+TEST_F(VtkHdf, StepsSayWhereEachFrameBegins) {
+  EXPECT_EQ(table<double>("Steps/Values", H5T_NATIVE_DOUBLE), (std::vector<double>{0, 30, 60}));
+  EXPECT_EQ(integers("Steps/PartOffsets"), (Integers{0, 1, 2}));
+  EXPECT_EQ(integers("Steps/NumberOfParts"), (Integers{1, 1, 1}));
+  for (const char* name : {"PointOffsets", "CellOffsets", "ConnectivityIdOffsets", "PointDataOffsets/velocity"}) {
+    EXPECT_EQ(integers(std::string("Steps/") + name), (Integers{0, 10, 17})) << name;
+  }
+  for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"}) {
+    EXPECT_EQ(integers(name), (Integers{10, 7, 10})) << name;
+  }
+}
+
+TEST_F(VtkHdf, CellsAreOnePointEach) {
+  EXPECT_EQ(integers("Types"), Integers(27, 1));
+  const Integers offsets = integers("Offsets"), points = integers("Connectivity");
+  ASSERT_EQ(offsets.size(), 27u + 3u) << "one more than cells in every part";
+  EXPECT_EQ(Integers(offsets.begin() + 11, offsets.begin() + 19), (Integers{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(Integers(points.begin() + 10, points.begin() + 17), (Integers{0, 1, 2, 3, 4, 5, 6}));
+}
+
+TEST_F(VtkHdf, ArraysFollowEachOther) {
+  std::vector<hsize_t> shape;
+  const auto points = table<double>("Points", H5T_NATIVE_DOUBLE, &shape);
+  EXPECT_EQ(shape, (std::vector<hsize_t>{27, 3}));
+  const auto turns = table<double>("PointData/orientation", H5T_NATIVE_DOUBLE, &shape);
+  EXPECT_EQ(shape, (std::vector<hsize_t>{27, 4}));
+  const auto ids = table<std::uint32_t>("PointData/id", H5T_NATIVE_UINT32);
+  const Frame last = sample::frame(scene_, 120);
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_EQ(Vec3(&points[3 * (17 + i)]), last.elements.state[i].pose.position);
+    EXPECT_EQ(turns[4 * (17 + i)], last.elements.state[i].pose.orientation.w());
+    EXPECT_EQ(ids[17 + i], last.elements.id[i]);
+  }
+}
+
+TEST_F(VtkHdf, NamesTypeVersionAndSteps) {
+  const Hdf5Handle file(H5Fopen((folder_ / "elements.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  std::int64_t version[2] = {}, steps = 0;
+  char text[32] = {};
+  const Hdf5Handle v(H5Aopen_by_name(file, "/VTKHDF", "Version", H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Hdf5Handle t(H5Aopen_by_name(file, "/VTKHDF", "Type", H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Hdf5Handle n(H5Aopen_by_name(file, "/VTKHDF/Steps", "NSteps", H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Hdf5Handle type(H5Aget_type(t), H5Tclose);
+  ASSERT_LE(H5Tget_size(type), sizeof(text));
+  EXPECT_GE(H5Aread(v, H5T_NATIVE_INT64, version), 0);
+  EXPECT_GE(H5Aread(t, type, text), 0);
+  EXPECT_GE(H5Aread(n, H5T_NATIVE_INT64, &steps), 0);
+  EXPECT_EQ(version[0], 2);
+  EXPECT_EQ(version[1], 0);
+  EXPECT_EQ(std::string(text), "UnstructuredGrid");
+  EXPECT_EQ(steps, 3);
+}
+
+TEST(VtkHdfErrors, NameTheFile) {
+  try {
+    find_writer("vtkhdf").make(sample::scene(), "/nowhere");
+    FAIL() << "expected IoError";
+  } catch (const IoError& e) {
+    EXPECT_NE(std::string(e.what()).find("/nowhere/elements.vtkhdf"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace moraine
