@@ -59,6 +59,12 @@ struct Body {
   ElementState state;
 };
 
+/// The part of a body's state that every step looks at.
+struct BodyMotion {
+  Vec3 position = Vec3::Zero();
+  Twist twist;
+};
+
 /// A body's place in a world: dense, reused after removal, meaningless outside this world.
 using Slot = std::uint32_t;
 
@@ -90,6 +96,8 @@ class World {
   virtual void remove(Slot slot) = 0;
   virtual void set_state(Slot slot, const ElementState& state) = 0;
   virtual ElementState state(Slot slot) const = 0;
+  /// Motions of many bodies at once, in the order asked for.
+  virtual void motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const = 0;
   /// Changes the copy's share of the element's mass; inertia follows in proportion.
   virtual void set_mass(Slot slot, double mass) = 0;
   virtual void apply_impulse(Slot slot, const Impulse& impulse) = 0;

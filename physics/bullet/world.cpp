@@ -131,6 +131,16 @@ ElementState BulletWorld::state(Slot slot) const {
           {Units::raw(body.getLinearVelocity()) * units_.velocity(), Units::raw(body.getAngularVelocity()) / units_.time}};
 }
 
+void BulletWorld::motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const {
+  out.resize(slots.size());
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const btRigidBody& body = *entry(slots[i]).body;
+    out[i] = {units_.position(body.getWorldTransform().getOrigin()),
+              {Units::raw(body.getLinearVelocity()) * units_.velocity(),
+               Units::raw(body.getAngularVelocity()) / units_.time}};
+  }
+}
+
 btVector3 BulletWorld::inertia(std::uint32_t shape, double mass) const {
   const Vec3 per_mass = settings_.scene->shapes[shape].inertia_per_mass / (units_.length * units_.length);
   return Units::raw(Vec3(per_mass * (mass / units_.mass)));

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include "ghosting/state_hash.hpp"
+
+namespace moraine::app {
+namespace {
+
+std::uint64_t peak_rss_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+Frame::Bodies capture_elements(const CoupledModel& model) {
+  Frame::Bodies out;
+  out.state = model.states();
+  out.sub_model = model.owners();
+  for (const Element& e : model.scene().elements) {
+    out.id.push_back(e.id);
+    out.shape.push_back(e.shape);
+  }
+  return out;
+}
+
+Frame::Bodies capture_ghosts(const CoupledModel& model) {
+  Frame::Bodies out;
+  for (std::size_t p = 0; p < model.size(); ++p) {
+    std::vector<std::pair<std::uint32_t, Slot>> here;
+    for (const HostLink& link : model.part(p).host_links())
+      for (const Ghost& g : link.ghosts) here.emplace_back(g.element, g.slot);
+    std::sort(here.begin(), here.end());
+    for (const auto& [element, slot] : here) {
+      const Element& e = model.scene().elements[element];
+      out.id.push_back(e.id);
+      out.sub_model.push_back(static_cast<SubModelId>(p));
+      out.state.push_back(model.part(p).world().state(slot));
+      out.shape.push_back(e.shape);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Frame capture(const CoupledModel& model, std::int64_t step) {
+  const Scene& scene = model.scene();
+  Frame frame;
+  frame.step = step;
+  frame.time = static_cast<double>(step) * scene.time.dt;
+  frame.elements = capture_elements(model);
+  frame.ghosts = capture_ghosts(model);
+  frame.bonds = model.alive_bonds();
+  for (const Boundary& b : scene.boundaries) frame.boundary_poses.push_back(b.motion.pose(b.pose, frame.time));
+  return frame;
+}
+
+Summary summarise(const CoupledModel& model, const runtime::Simulation& simulation, double wall_s, double loop_wall_s) {
+  const Scene& scene = model.scene();
+  const ModelStatistics statistics = model.statistics();
+  const OverlapStatistics overlaps = model.overlaps();
+  const runtime::LoadRecord& load = simulation.load();
+  const Frame::Bodies elements = capture_elements(model);
+  const auto share = [&](double ghosts) { return elements.size() == 0 ? 0 : ghosts / static_cast<double>(elements.size()); };
+
+  Summary s;
+  s.scene = scene.name;
+  s.engine = scene.run.engine;
+  s.precision = find_engine(scene.run.engine).precision;
+  s.coupling = scene.run.coupling;
+  s.split = scene.run.split;
+  s.scheduler = scene.run.scheduler;
+  s.balancer = "none";
+  s.threads_per_rank = simulation.threads();
+  s.elements = elements.size();
+  s.sub_models = static_cast<std::uint32_t>(model.size());
+  s.steps = scene.time.steps;
+  s.substeps = scene.time.substeps;
+  s.dt = scene.time.dt;
+  s.time = static_cast<double>(scene.time.steps) * scene.time.dt;
+  s.wall_s = wall_s;
+  s.loop_wall_s = loop_wall_s;
+  const double element_steps = static_cast<double>(s.elements) * static_cast<double>(s.steps) * s.substeps;
+  s.element_steps_per_s = loop_wall_s > 0 ? element_steps / loop_wall_s : 0;
+  s.peak_rss_bytes = peak_rss_bytes();
+  s.state_hash = fmt::format("{:016x}", state_hash(scene, elements.state));
+  s.ghosts = {statistics.ghosts_mean, statistics.ghosts_max, statistics.ghosts_now, share(statistics.ghosts_mean),
+              share(static_cast<double>(statistics.ghosts_now))};
+  s.bonds = {scene.bonds.size(), statistics.bonds_broken};
+  s.momentum_residual = {statistics.linear_residual, statistics.angular_residual};
+  s.kinetic_energy = statistics.ledger.kinetic_energy;
+  if (statistics.ledger.mass > 0) {
+    const Vec3 centre = statistics.ledger.mass_moment / statistics.ledger.mass;
+    s.center_of_mass = {centre.x(), centre.y(), centre.z()};
+  }
+  s.x95 = x_quantile(elements, 0.95);
+  s.overlap = {overlaps.max, overlaps.mean};
+  s.coupling_residual = statistics.coupling_residual;
+  s.load = {load.imbalance(), load.utilisation(), load.waiting_fraction(), 0};
+  for (std::size_t i = 0; i < load.stages.size(); ++i)
+    s.step_share[std::string(SubModel::stages()[i].name)] = load.busy() > 0 ? load.stages[i].seconds / load.busy() : 0;
+  s.recuts = statistics.recuts;
+  s.warnings = scene.warnings;
+  return s;
+}
+
+}  // namespace moraine::app

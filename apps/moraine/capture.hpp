@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a model looks like at one moment, and what a run amounted to.
+#pragma once
+
+#include "ghosting/model.hpp"
+#include "output/frame.hpp"
+#include "output/summary.hpp"
+#include "runtime/simulation.hpp"
+
+namespace moraine::app {
+
+Frame capture(const CoupledModel& model, std::int64_t step);
+Summary summarise(const CoupledModel& model, const runtime::Simulation& simulation, double wall_s, double loop_wall_s);
+
+}  // namespace moraine::app

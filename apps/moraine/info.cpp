@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// moraine info: what would run, without running it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "commands.hpp"
+#include "ghosting/auto_count.hpp"
+#include "ghosting/model.hpp"
+#include "output/label.hpp"
+#include "runtime/cores.hpp"
+
+namespace moraine::app {
+namespace {
+
+void line(const char* what, const std::string& text) { std::cout << fmt::format("{:<16}{}\n", what, text); }
+
+std::string features_text(const Scene& scene) {
+  const Features f = features_of(scene);
+  std::string used, left_out;
+  const auto note = [&](const char* name, bool in_use) {
+    std::string& to = in_use ? used : left_out;
+    to += (to.empty() ? "" : ", ") + std::string(name);
+  };
+  note("friction", f.friction);
+  note("restitution", f.restitution);
+  note("bonds", f.bonds);
+  note("shapes other than spheres", !f.spheres_only);
+  return (used.empty() ? "none" : used) + (left_out.empty() ? "" : "; left out: " + left_out);
+}
+
+std::string limits_text(const Scene& scene) {
+  const Limits limits = find_limits(scene.run.engine_profile);
+  if (limits.elements == SIZE_MAX) return "none";
+  return fmt::format("{} shapes and {} contact pairs per sub-model, {} sub-models; {} touching spheres, {:.0f} % of them "
+                     "kept for ghosts",
+                     limits.elements, limits.contact_pairs, limits.worlds, limits.packed_spheres(),
+                     limits.ghost_reserve * 100);
+}
+
+/// Sub-models never share a task, so whole tasks bound what stage-by-stage scheduling can use.
+std::string barrier_text(std::size_t parts, int threads) {
+  const double rounds = std::ceil(static_cast<double>(parts) / threads);
+  return fmt::format("{} thread(s); scheduler barrier could use at most {:.1f} % of them", threads,
+                     100 * static_cast<double>(parts) / (rounds * threads));
+}
+
+}  // namespace
+
+int info(const Scene& scene) {
+  const CoupledModel model(scene);
+  std::size_t smallest = SIZE_MAX, largest = 0;
+  for (std::size_t i = 0; i < model.size(); ++i) {
+    smallest = std::min(smallest, model.part(i).members().size());
+    largest = std::max(largest, model.part(i).members().size());
+  }
+  const int threads = scene.run.threads > 0 ? scene.run.threads : runtime::usable_cores();
+  line("scene", fmt::format("{} ({})", scene.name, scene.source));
+  line("elements", grouped(scene.elements.size()));
+  line("bonds", grouped(scene.bonds.size()));
+  line("boundaries", grouped(scene.boundaries.size()));
+  line("features", features_text(scene));
+  line("engine", fmt::format("{}: {}", scene.run.engine, find_engine(scene.run.engine).help));
+  line("engine limits", limits_text(scene));
+  line("sub-models", fmt::format("{} by {}, {} to {} elements each{}", model.size(), scene.run.split, smallest, largest,
+                                 scene.run.sub_models == 0 ? " (auto)" : ""));
+  line("ghosts", model.size() < 2 ? std::string("none: one sub-model")
+                                  : fmt::format("coupling {}; about {:.0f} % expected for compact sub-models of this size",
+                                                scene.run.coupling, 100 * expected_ghost_share(double(largest))));
+  line("time", fmt::format("{} steps of {:.6g} s in {} substep(s), {} iterations each", scene.time.steps, scene.time.dt,
+                           scene.time.substeps, scene.run.iterations));
+  line("scheduling", fmt::format("{}; {}", scene.run.scheduler, barrier_text(model.size(), threads)));
+  line("memory", fmt::format("about {:.0f} MB for the worlds", 8e-3 * double(scene.elements.size())));
+  for (const std::string& warning : scene.warnings) line("warning", warning);
+  return 0;
+}
+
+}  // namespace moraine::app

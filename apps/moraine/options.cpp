@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <string_view>
+
+#include "physics/errors.hpp"
+
+namespace moraine::app {
+namespace {
+
+struct Row {
+  const char* flag;
+  const char* key;  ///< in the scene file
+  const char* help;
+};
+
+constexpr std::array table{
+    Row{"--out", "output.folder", "folder for results (default out/NAME)"},
+    Row{"--steps", "time.steps", "number of steps"},
+    Row{"--dt", "time.dt", "one step [s]"},
+    Row{"--substeps", "time.substeps", "engine steps per step; sub-models are coupled after each"},
+    Row{"--threads", "run.threads", "worker threads (default: the cores this process may use)"},
+    Row{"--engine", "run.engine", "engine, see 'moraine list'"},
+    Row{"--sub-models", "run.sub_models", "number of sub-models, or auto"},
+    Row{"--split", "run.split", "how the scene is cut, see 'moraine list'"},
+    Row{"--coupling", "run.coupling", "how sub-models are coupled, see 'moraine list'"},
+    Row{"--iterations", "run.iterations", "solver iterations per substep"},
+    Row{"--scheduler", "run.scheduler", "order of tasks, see 'moraine list'"},
+    Row{"--output-every", "output.every", "steps between frames; 0: first and last only"},
+};
+
+/// "--sub-models" -> "MORAINE_SUB_MODELS"
+std::string environment_name(std::string_view flag) {
+  std::string name = "MORAINE_";
+  for (const char c : flag.substr(2)) name += c == '-' ? '_' : static_cast<char>(std::toupper(c));
+  return name;
+}
+
+Override parse_set(const std::string& text) {
+  const auto at = text.find('=');
+  if (at == std::string::npos || at == 0)
+    throw InputError(fmt::format("--set {}: expected name=value or path.to.key=value", text));
+  return {text.substr(0, at), text.substr(at + 1), "--set"};
+}
+
+}  // namespace
+
+void SceneOptions::add_to(CLI::App& command) {
+  values_.resize(table.size());
+  command.add_option("scene", file_, "scene file")->required();
+  command.add_option("--set", sets_, "parameter=value or path.to.key=value; may be repeated")->take_all()->expected(1);
+  for (std::size_t i = 0; i < table.size(); ++i) command.add_option(table[i].flag, values_[i], table[i].help);
+}
+
+Scene SceneOptions::read() const {
+  std::vector<Override> overrides;
+  for (const Row& row : table)
+    if (const std::string name = environment_name(row.flag); const char* value = std::getenv(name.c_str()))
+      overrides.push_back({row.key, value, name});
+  for (const std::string& s : sets_) overrides.push_back(parse_set(s));
+  for (std::size_t i = 0; i < table.size(); ++i)
+    if (!values_[i].empty()) overrides.push_back({table[i].key, values_[i], table[i].flag});
+  return read_scene(file_, overrides);
+}
+
+}  // namespace moraine::app

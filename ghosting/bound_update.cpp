@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bound update: where this sub-model's elements are now, which of them need a ghost where, and with what they start.
+#include <algorithm>
+
+#include "ghosting/sub_model.hpp"
+
+namespace moraine {
+namespace {
+
+constexpr double drop_factor = 1.5;  // ghosts are made below the skin and dropped above 1.5 skins, so they do not flicker
+
+std::array<double, 3> point(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Twist sum(const Twist& a, const Twist& b) { return {a.linear + b.linear, a.angular + b.angular}; }
+
+}  // namespace
+
+void SubModel::bound_update(const runtime::Round&, runtime::Port& port) {
+  update_bounds();
+  for (OwnerLink& link : owner_links_) choose_hosted(link);
+  update_shared();
+  for (SharedElement& shared : shared_) start_shared(shared);
+  for (const OwnerLink& link : owner_links_) send_ghosts(link, port);
+}
+
+void SubModel::update_bounds() {
+  bounds_ = {};
+  double speed2 = 0;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    bounds_.add(motions_[i].position, context_.radius(members_[i]));
+    speed2 = std::max(speed2, motions_[i].twist.linear.squaredNorm());
+  }
+  max_speed_ = std::sqrt(speed2);
+}
+
+/// By distance, with memory, and by bond.
+void SubModel::choose_hosted(OwnerLink& link) {
+  find_touching(link, found_);
+  std::erase_if(link.bonds, [&](const CrossBond& b) { return std::binary_search(broken_.begin(), broken_.end(), b.bond); });
+  for (const CrossBond& b : link.bonds) found_.push_back(b.own);
+  std::sort(found_.begin(), found_.end());
+  found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
+  link.hosted.assign(found_.begin(), found_.end());
+}
+
+/// Members whose bounding sphere comes closer than the skin to that of an element of the host, ascending.
+void SubModel::find_touching(const OwnerLink& link, std::vector<std::uint32_t>& out) {
+  out.clear();
+  Bounds box;
+  double largest = 0;
+  points_.clear();
+  for (const BorderElement& b : link.border) {
+    points_.push_back(point(b.position));
+    box.add(b.position, b.radius);
+    largest = std::max(largest, b.radius);
+  }
+  if (points_.empty()) return;
+  grid_.build(points_, largest + largest_radius_ + drop_factor * context_.skin);
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const Vec3& x = motions_[i].position;
+    const double radius = context_.radius(members_[i]);
+    if (box.distance(x) > radius + drop_factor * context_.skin) continue;
+    const bool hosted = std::binary_search(link.hosted.begin(), link.hosted.end(), members_[i]);
+    const double reach = radius + context_.skin * (hosted ? drop_factor : 1.0);
+    bool touches = false;
+    grid_.around(point(x), [&](std::uint32_t k) {
+      const double limit = reach + link.border[k].radius;
+      touches = touches || (link.border[k].position - x).squaredNorm() <= limit * limit;
+    });
+    if (touches) out.push_back(members_[i]);
+  }
+}
+
+/// Brings the list of shared elements in line with the hosted lists of all links.
+void SubModel::update_shared() {
+  std::vector<std::pair<std::uint32_t, SubModelId>> wanted;
+  for (const OwnerLink& link : owner_links_)
+    for (const std::uint32_t e : link.hosted) wanted.emplace_back(e, link.host);
+  std::sort(wanted.begin(), wanted.end());
+
+  std::vector<SharedElement> before = std::move(shared_);
+  shared_.clear();
+  std::fill(shared_index_.begin(), shared_index_.end(), -1);
+  auto old = before.begin();
+  for (auto at = wanted.begin(); at != wanted.end();) {
+    const std::uint32_t element = at->first;
+    for (; old != before.end() && old->element < element; ++old) unshare(*old);
+    SharedElement shared;
+    if (old != before.end() && old->element == element) {
+      shared = std::move(*old++);
+    } else {
+      shared.element = element;
+      shared.state = world_->state(slots_[member_index(element)]);
+      shared.copies = {{id_, {}}};
+    }
+    std::vector<SubModelId> worlds{id_};
+    for (; at != wanted.end() && at->first == element; ++at) worlds.push_back(at->second);
+    std::sort(worlds.begin(), worlds.end());
+    const bool same = std::equal(worlds.begin(), worlds.end(), shared.copies.begin(), shared.copies.end(),
+                                 [](SubModelId w, const Copy& c) { return w == c.world; });
+    if (!same) context_.coupling->change_copies(shared, worlds, id_);
+    shared_index_[member_index(element)] = static_cast<std::int32_t>(shared_.size());
+    shared_.push_back(std::move(shared));
+  }
+  for (; old != before.end(); ++old) unshare(*old);
+}
+
+void SubModel::start_shared(SharedElement& shared) {
+  const Slot slot = slots_[member_index(shared.element)];
+  const auto own = std::find_if(shared.copies.begin(), shared.copies.end(), [&](auto& c) { return c.world == id_; });
+  world_->set_mass(slot, context_.element_mass(shared.element) * context_.coupling->mass_share(shared.copies.size()));
+  world_->set_state(slot, {shared.state.pose, sum(shared.state.twist, own->offset)});
+  shared.start = world_->state(slot);
+}
+
+/// The last ghost is gone: what all copies carried sums to nothing, so the element just goes on.
+void SubModel::unshare(const SharedElement& shared) {
+  const Slot slot = slots_[member_index(shared.element)];
+  world_->set_mass(slot, context_.element_mass(shared.element));
+  world_->set_state(slot, shared.state);
+}
+
+void SubModel::send_ghosts(const OwnerLink& link, runtime::Port& port) {
+  bound_message_.bounds = bounds_;
+  bound_message_.max_speed = max_speed_;
+  bound_message_.ghosts.clear();
+  for (const std::uint32_t e : link.hosted) {
+    const SharedElement& shared = *find_shared(e);
+    const auto copy = std::find_if(shared.copies.begin(), shared.copies.end(), [&](auto& c) { return c.world == link.host; });
+    bound_message_.ghosts.push_back({e, static_cast<std::uint32_t>(shared.copies.size()),
+                                     {shared.state.pose, sum(shared.state.twist, copy->offset)}});
+  }
+  bound_message_.broken_bonds = newly_broken_;
+  bound_message_.write(bytes_);
+  port.send(link.host, bytes_);
+}
+
+}  // namespace moraine

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the copies of one element stay one element: the contract of a coupling and the table of them.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "physics/types.hpp"
+
+namespace moraine {
+
+/// One copy of a shared element: the real one in its owner's world or a ghost in a host's world.
+struct Copy {
+  SubModelId world = 0;
+  Twist offset;  ///< of the copy's velocity from the element's at the start of a substep: the load it carries
+};
+
+/// What a copy did in one substep.
+struct CopyMotion {
+  Vec3 displacement = Vec3::Zero();  ///< [m]
+  Vec3 rotation = Vec3::Zero();      ///< rotation vector, world frame [rad]
+  Twist twist;                       ///< at the end
+};
+
+/// An element with ghosts, as its owner knows it.
+struct SharedElement {
+  std::uint32_t element = 0;  ///< index into Scene::elements
+  ElementState state;         ///< the one canonical state
+  std::vector<Copy> copies;   ///< ascending world; includes the real one
+  ElementState start;         ///< of the real copy, as its world holds it in this substep
+};
+
+/// What a coupling may use besides the element itself.
+struct CouplingContext {
+  SubModelId owner = 0;
+  Vec3 gravity_step = Vec3::Zero();  ///< velocity that gravity adds in a substep [m/s]
+  double leak = 0.85;                ///< RunSettings::coupling_leak
+};
+
+/// Contract. Pure functions of their arguments; sums run over the copies in the order given (ascending world).
+class Coupling {
+ public:
+  virtual ~Coupling() = default;
+  /// Whether `host` makes ghosts of elements of its neighbour `owner`.
+  virtual bool hosts(SubModelId host, SubModelId owner) const = 0;
+  /// Share of the element's mass and inertia that each of its copies has.
+  virtual double mass_share(std::size_t copies) const = 0;
+  /// Turns what the copies did (one motion per copy) into the element's new state and the copies' new offsets.
+  /// Returns the squared speed by which the copies disagreed, summed over copies [m^2/s^2].
+  virtual double combine(SharedElement& shared, std::span<const CopyMotion> motions,
+                         const CouplingContext& context) const = 0;
+  /// The set of worlds changes (both lists ascending): adjusts the copies, keeping the sum of what they carry.
+  virtual void change_copies(SharedElement& shared, std::span<const SubModelId> worlds, SubModelId owner) const = 0;
+};
+
+struct CouplingRow {
+  std::string_view name;
+  std::string_view help;
+  std::unique_ptr<Coupling> (*make)();
+};
+
+std::span<const CouplingRow> couplings();
+/// Errors: InputError that prints the table.
+std::unique_ptr<Coupling> make_coupling(std::string_view name);
+
+std::unique_ptr<Coupling> make_consensus();
+std::unique_ptr<Coupling> make_mirror();
+
+/// Rotates an orientation by a rotation vector given in the world frame.
+Quat rotated(const Quat& q, const Vec3& rotation);
+/// The rotation vector, world frame, that takes `from` to `to` by the shorter way.
+Vec3 rotation_between(const Quat& from, const Quat& to);
+
+}  // namespace moraine

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Force mirror: the owner turns what an element's copies did into the element's one state, and what they carry on.
+#include <algorithm>
+#include <stdexcept>
+
+#include "ghosting/sub_model.hpp"
+
+namespace moraine {
+
+void SubModel::force_mirror(const runtime::Round& round, runtime::Port& port) {
+  for (OwnerLink& link : owner_links_) receive_results(link, port.received(link.host));
+  if (round.opening()) return;
+  for (SharedElement& shared : shared_) combine(shared);
+  update_ledger(round);
+}
+
+void SubModel::receive_results(OwnerLink& link, std::span<const std::byte> bytes) {
+  step_message_.read(bytes);
+  std::swap(link.border, step_message_.border);
+  std::swap(link.results, step_message_.results);
+  note_broken(step_message_.broken_bonds);
+  forget_bonds(step_message_.broken_bonds);
+}
+
+/// The other side broke them: both sides see it in the same substep.
+void SubModel::forget_bonds(std::span<const std::uint32_t> broken) {
+  for (const std::uint32_t b : broken)
+    for (HostLink& link : host_links_)
+      if (std::erase(link.held, b) > 0) world_->remove_bond(b);
+}
+
+CopyMotion SubModel::own_motion(const SharedElement& shared) const {
+  const ElementState end = world_->state(slots_[member_index(shared.element)]);
+  return {end.pose.position - shared.start.pose.position,
+          rotation_between(shared.start.pose.orientation, end.pose.orientation), end.twist};
+}
+
+void SubModel::combine(SharedElement& shared) {
+  copy_motions_.clear();
+  for (const Copy& copy : shared.copies) {
+    if (copy.world == id_) {
+      copy_motions_.push_back(own_motion(shared));
+      continue;
+    }
+    const auto link = std::lower_bound(owner_links_.begin(), owner_links_.end(), copy.world,
+                                       [](const OwnerLink& l, SubModelId w) { return l.host < w; });
+    const auto at = std::lower_bound(link->results.begin(), link->results.end(), shared.element,
+                                     [](const GhostResult& r, std::uint32_t e) { return r.element < e; });
+    if (at == link->results.end() || at->element != shared.element)
+      throw std::logic_error("a ghost did not report to its owner");
+    copy_motions_.push_back(at->motion);
+  }
+  const CouplingContext context{id_, context_.scene->gravity * context_.world.substep,
+                                context_.scene->run.coupling_leak};
+  disagreement_ += context_.coupling->combine(shared, copy_motions_, context);
+  disagreements_ += shared.copies.size();
+  motions_[member_index(shared.element)] = {shared.state.pose.position, shared.state.twist};
+}
+
+/// Angular momentum of spheres is I w; of other shapes the body-frame inertia is turned into the world frame.
+void SubModel::update_ledger(const runtime::Round& round) {
+  Ledger now;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const Element& e = context_.scene->elements[members_[i]];
+    const Shape& shape = context_.scene->shapes[e.shape];
+    const BodyMotion& m = motions_[i];
+    const Vec3 p = e.mass * m.twist.linear;
+    Vec3 spin = e.mass * shape.inertia_per_mass.x() * m.twist.angular;
+    if (!shape.sphere()) {
+      const Quat q = state(i).pose.orientation;
+      spin = q * Vec3(e.mass * shape.inertia_per_mass.cwiseProduct(q.conjugate() * m.twist.angular));
+    }
+    const Vec3 orbit = m.position.cross(p);
+    now.momentum += {p, orbit + spin};
+    now.kinetic_energy += 0.5 * (p.dot(m.twist.linear) + spin.dot(m.twist.angular));
+    now.speed_sum += p.norm();
+    now.spin_scale += orbit.norm() + spin.norm();
+    now.mass_moment += e.mass * m.position;
+    now.mass += e.mass;
+  }
+  now.given = ledger_.given;
+  now.exchanged = ledger_.exchanged;
+  if (!members_.empty() && ledger_.mass > 0 && !round.opening()) {
+    const Vec3 step = context_.scene->gravity * context_.world.substep;
+    const Impulse gravity{now.mass * step, mass_moment_before_.cross(step)};
+    const Impulse walls = world_->boundary_impulse();
+    now.given += gravity;
+    now.given += walls;
+    now.exchanged += gravity.linear.norm() + walls.linear.norm();
+  }
+  ledger_ = now;
+}
+
+}  // namespace moraine

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Momentum accounts: what the elements have, and what gravity and boundaries gave them.
+#pragma once
+
+#include "physics/types.hpp"
+
+namespace moraine {
+
+/// Sums over a sub-model's own elements; angular parts about the world origin.
+struct Ledger {
+  Impulse momentum;      ///< now [kg m/s, kg m^2/s]
+  Impulse given;         ///< by gravity and boundaries since the start
+  double exchanged = 0;  ///< sum of the magnitudes of what was given, linear [N s]
+  double kinetic_energy = 0;  ///< now [J]
+  double speed_sum = 0;  ///< sum of m |v| now
+  double spin_scale = 0; ///< sum of |m x cross v| + |I w| now
+  Vec3 mass_moment = Vec3::Zero();  ///< sum of m x now
+  double mass = 0;
+
+  Ledger& operator+=(const Ledger& o) {
+    momentum += o.momentum;
+    given += o.given;
+    exchanged += o.exchanged;
+    kinetic_energy += o.kinetic_energy;
+    speed_sum += o.speed_sum;
+    spin_scale += o.spin_scale;
+    mass_moment += o.mass_moment;
+    mass += o.mass;
+    return *this;
+  }
+};
+
+}  // namespace moraine

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Step: the engine advances this world alone; what its ghosts did is reported to their owners.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ghosting/sub_model.hpp"
+#include "physics/errors.hpp"
+
+namespace moraine {
+
+void SubModel::step(const runtime::Round& round, runtime::Port& port) {
+  if (!round.opening()) advance(round);
+  for (HostLink& link : host_links_) {
+    report(link, round.opening(), step_message_);
+    step_message_.write(bytes_);
+    port.send(link.owner, bytes_);
+  }
+}
+
+void SubModel::advance(const runtime::Round& round) {
+  mass_moment_before_ = ledger_.mass_moment;
+  world_->step(static_cast<double>(round.number) * context_.world.substep);
+  newly_broken_.assign(world_->broken_bonds().begin(), world_->broken_bonds().end());
+  note_broken(newly_broken_);
+  read_motions();
+  check_motions(round);
+}
+
+void SubModel::read_motions() { world_->motions(slots_, motions_); }
+
+/// Errors: InvalidStateError naming the element and the step when a number is not finite or a speed beyond the limit.
+void SubModel::check_motions(const runtime::Round& round) const {
+  const double limit = context_.speed_limit * context_.speed_limit;
+  for (std::size_t i = 0; i < motions_.size(); ++i) {
+    const double speed2 = motions_[i].twist.linear.squaredNorm();
+    if (speed2 <= limit && std::isfinite(motions_[i].position.squaredNorm() + motions_[i].twist.angular.squaredNorm()))
+      continue;
+    const auto step = round.number / context_.scene->time.substeps;
+    const ElementId id = context_.scene->elements[members_[i]].id;
+    if (std::isfinite(speed2) && speed2 > limit)
+      throw InvalidStateError(fmt::format("element {} runs away at step {}: speed {:.4g} m/s, the limit is {:.4g} m/s "
+                                          "(run.max_speed); try a smaller dt or more substeps",
+                                          id, step, std::sqrt(speed2), context_.speed_limit));
+    throw InvalidStateError(fmt::format("element {} has a state that is not a number at step {}", id, step));
+  }
+}
+
+void SubModel::note_broken(std::span<const std::uint32_t> bonds) {
+  for (const std::uint32_t b : bonds) {
+    const auto at = std::lower_bound(broken_.begin(), broken_.end(), b);
+    if (at == broken_.end() || *at != b) broken_.insert(at, b);
+  }
+}
+
+void SubModel::report(const HostLink& link, bool opening, StepMessage& message) const {
+  message.results.clear();
+  message.border.clear();
+  message.broken_bonds.clear();
+  if (!opening) {
+    for (const Ghost& ghost : link.ghosts) message.results.push_back(result(ghost));
+    for (const CrossBond& b : link.bonds)
+      if (std::binary_search(newly_broken_.begin(), newly_broken_.end(), b.bond)) message.broken_bonds.push_back(b.bond);
+    std::sort(message.broken_bonds.begin(), message.broken_bonds.end());
+  }
+  // The owner's bounds are a substep old: its elements have moved at most this far since.
+  const double reach = 1.5 * context_.skin + 2 * link.max_speed * context_.world.substep;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const double radius = context_.radius(members_[i]);
+    if (link.bounds.distance(motions_[i].position) <= radius + reach)
+      message.border.push_back({motions_[i].position, radius});
+  }
+}
+
+GhostResult SubModel::result(const Ghost& ghost) const {
+  const ElementState end = world_->state(ghost.slot);
+  return {ghost.element, 0,
+          {end.pose.position - ghost.start.pose.position,
+           rotation_between(ghost.start.pose.orientation, end.pose.orientation), end.twist}};
+}
+
+}  // namespace moraine

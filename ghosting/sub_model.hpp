@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// One sub-model: an engine's world with the elements it owns, the ghosts it hosts, and its side of the coupling.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "ghosting/coupling.hpp"
+#include "ghosting/ledger.hpp"
+#include "ghosting/messages.hpp"
+#include "physics/cell_grid.hpp"
+#include "physics/world.hpp"
+#include "runtime/sub_model.hpp"
+
+namespace moraine {
+
+/// What all sub-models of a model share, read-only while it runs.
+struct ModelContext {
+  const Scene* scene = nullptr;
+  std::vector<std::array<std::uint32_t, 2>> bond_ends;  ///< element indices of every scene bond
+  const Engine* engine = nullptr;
+  const Coupling* coupling = nullptr;
+  WorldSettings world;
+  double skin = 0;         ///< ghosts are made below this gap [m]
+  double speed_limit = 0;  ///< runaway above this [m/s]
+  double element_mass(std::uint32_t element) const { return scene->elements[element].mass; }
+  double radius(std::uint32_t element) const { return scene->shapes[scene->elements[element].shape].bounding_radius; }
+};
+
+/// A bond between an element of this sub-model and one of another.
+struct CrossBond {
+  std::uint32_t bond = 0;     ///< index into Scene::bonds
+  std::uint32_t own = 0;      ///< element here
+  std::uint32_t other = 0;    ///< element there
+};
+
+/// A ghost in this world.
+struct Ghost {
+  std::uint32_t element = 0;
+  Slot slot = 0;
+  ElementState start;  ///< as the world holds it at the start of the substep
+};
+
+/// This sub-model hosts ghosts of `owner`'s elements.
+struct HostLink {
+  SubModelId owner = 0;
+  Bounds bounds;        ///< of the owner's elements, a substep old
+  double max_speed = 0;
+  std::vector<Ghost> ghosts;             ///< ascending element
+  std::vector<CrossBond> bonds;          ///< alive; other = the ghost
+  std::vector<std::uint32_t> held;       ///< bonds of these that are in the world, ascending
+};
+
+/// `host` has ghosts of this sub-model's elements.
+struct OwnerLink {
+  SubModelId host = 0;
+  std::vector<BorderElement> border;     ///< the host's elements near our bounds
+  std::vector<std::uint32_t> hosted;     ///< our elements that have a ghost there, ascending
+  std::vector<CrossBond> bonds;          ///< alive; own = the element that needs a ghost there
+  std::vector<GhostResult> results;      ///< of the last step
+};
+
+class SubModel final : public runtime::SubModel {
+ public:
+  enum Stage : int { ghost_build_stage, step_stage, force_mirror_stage, bound_update_stage };
+  static std::span<const runtime::Stage> stages();
+
+  /// `members`: elements ascending; `states`: one each. Bonds among them are `inner_bonds` (indices into Scene::bonds).
+  SubModel(const ModelContext& context, SubModelId id, std::vector<std::uint32_t> members,
+           std::span<const ElementState> states, std::span<const std::uint32_t> inner_bonds);
+
+  std::span<const runtime::SubModelId> sources(int stage) const override;
+  std::span<const runtime::SubModelId> targets(int stage) const override;
+  void run(int stage, const runtime::Round& round, runtime::Port& port) override;
+  double counted_work(int stage) const override;
+  void save(std::vector<std::byte>& out) const override;
+  void load(std::span<const std::byte> in) override;
+
+  /// Sets the neighbours for the coming epoch; links to others are dissolved, ghosts and shares with them.
+  struct Neighbour {
+    SubModelId id;
+    Bounds bounds;
+    double max_speed;
+    std::vector<CrossBond> bonds;
+  };
+  void set_neighbours(std::span<const Neighbour> neighbours);
+  /// Called between epochs in every sub-model alike.
+  void canonicalise() { world_->canonicalise(); }
+
+  SubModelId id() const { return id_; }
+  std::span<const std::uint32_t> members() const { return members_; }
+  std::span<const std::uint32_t> broken_bonds() const { return broken_; }
+  std::size_t ghost_count() const;
+  const Bounds& bounds() const { return bounds_; }
+  double max_speed() const { return max_speed_; }
+  const Ledger& ledger() const { return ledger_; }
+  const World& world() const { return *world_; }
+  std::span<const HostLink> host_links() const { return host_links_; }
+  std::span<const OwnerLink> owner_links() const { return owner_links_; }
+  std::span<const SharedElement> shared() const { return shared_; }
+  /// The canonical state of a member, by its place in members().
+  ElementState state(std::size_t member) const;
+  /// Sum and count of squared disagreements of copies since the start, for the coupling residual.
+  double disagreement() const { return disagreement_; }
+  std::uint64_t disagreements() const { return disagreements_; }
+  /// Sum over rounds of the number of ghosts here.
+  std::uint64_t ghost_rounds() const { return ghost_rounds_; }
+
+ private:
+  void ghost_build(const runtime::Round& round, runtime::Port& port);
+  void update_ghosts(HostLink& link, const BoundMessage& message);
+  void place_ghost(Ghost& ghost, const GhostOrder& order, bool fresh);
+  void drop_ghost(HostLink& link, const Ghost& ghost);
+  void hold_bonds(HostLink& link);
+
+  void step(const runtime::Round& round, runtime::Port& port);
+  void advance(const runtime::Round& round);
+  void read_motions();
+  void check_motions(const runtime::Round& round) const;
+  void note_broken(std::span<const std::uint32_t> bonds);
+  void report(const HostLink& link, bool opening, StepMessage& message) const;
+  GhostResult result(const Ghost& ghost) const;
+
+  void force_mirror(const runtime::Round& round, runtime::Port& port);
+  void receive_results(OwnerLink& link, std::span<const std::byte> bytes);
+  void forget_bonds(std::span<const std::uint32_t> broken);
+  CopyMotion own_motion(const SharedElement& shared) const;
+  void combine(SharedElement& shared);
+  void update_ledger(const runtime::Round& round);
+
+  void bound_update(const runtime::Round& round, runtime::Port& port);
+  void update_bounds();
+  void choose_hosted(OwnerLink& link);
+  void find_touching(const OwnerLink& link, std::vector<std::uint32_t>& out);
+  void update_shared();
+  void start_shared(SharedElement& shared);
+  void unshare(const SharedElement& shared);
+  void send_ghosts(const OwnerLink& link, runtime::Port& port);
+
+  std::size_t member_index(std::uint32_t element) const;
+  const SharedElement* find_shared(std::uint32_t element) const;
+
+  const ModelContext& context_;
+  SubModelId id_;
+  std::vector<std::uint32_t> members_;
+  std::vector<Slot> slots_;
+  std::vector<std::int32_t> shared_index_;  ///< by member; -1: not shared
+  std::unique_ptr<World> world_;
+
+  std::vector<HostLink> host_links_;    ///< ascending owner
+  std::vector<OwnerLink> owner_links_;  ///< ascending host
+  std::vector<runtime::SubModelId> owners_, hosts_;
+  std::vector<SharedElement> shared_;   ///< ascending element
+  std::vector<std::uint32_t> broken_;   ///< bonds known broken, ascending
+  std::vector<std::uint32_t> newly_broken_;
+
+  std::vector<BodyMotion> motions_;  ///< of members, canonical after the force mirror
+  Bounds bounds_;
+  double max_speed_ = 0;
+  double largest_radius_ = 0;  ///< of the members [m]
+  Ledger ledger_;
+  Vec3 mass_moment_before_ = Vec3::Zero();
+  double disagreement_ = 0;
+  std::uint64_t disagreements_ = 0;
+  std::uint64_t ghost_rounds_ = 0;
+
+  // Buffers, reused
+  std::vector<std::byte> bytes_;
+  StepMessage step_message_;
+  BoundMessage bound_message_;
+  CellGrid<double> grid_;
+  std::vector<std::array<double, 3>> points_;
+  std::vector<std::uint32_t> found_;
+  std::vector<CopyMotion> copy_motions_;
+};
+
+}  // namespace moraine
