@@ -22,6 +22,12 @@ std::vector<std::string> split_path(const std::string& path) {
   return parts;
 }
 
+/// The path without its last key; empty at the top.
+std::string above(const std::string& path) {
+  const auto dot = path.find_last_of('.');
+  return dot == std::string::npos ? "" : path.substr(0, dot);
+}
+
 /// Levenshtein distance.
 std::size_t edits(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -189,8 +195,7 @@ void Document::read_parameters() {
 }
 
 std::string Document::place(const std::string& path, const YAML::Mark& mark) const {
-  for (std::string at = path; !at.empty();
-       at.resize(at.find_last_of('.') + 1), at.resize(at.empty() ? 0 : at.size() - 1)) {
+  for (std::string at = path; !at.empty(); at = above(at)) {
     if (const auto found = origins_.find(at); found != origins_.end()) return found->second;
   }
   return fmt::format("{}:{}:{}", file_, std::max(mark.line, 0) + 1, std::max(mark.column, 0) + 1);

@@ -32,7 +32,8 @@ void Node::check_duplicates() const {
   std::set<std::string> seen;
   for (const auto& entry : node_) {
     const std::string key = entry.first.Scalar();
-    if (!seen.insert(key).second) document_->fail(path_, entry.first.Mark(), "the key '" + key + "' is given twice, expected once");
+    if (!seen.insert(key).second)
+      document_->fail(path_, entry.first.Mark(), "the key '" + key + "' is given twice, expected once");
   }
 }
 

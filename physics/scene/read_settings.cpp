@@ -81,7 +81,9 @@ void read_run(const Node& root, RunSettings& run) {
 void read_output(const Node& root, OutputSettings& output) {
   const auto node = root.find("output");
   if (!node) return;
-  node->allow({"every", "formats", "pictures", "picture_width"});
+  node->allow({"folder", "quiet", "every", "formats", "pictures", "picture_width"});
+  output.folder = node->text("folder", output.folder);
+  output.quiet = node->boolean("quiet", output.quiet);
   output.every = read_int(*node, "every", output.every, 0);
   output.pictures = node->boolean("pictures", output.pictures);
   output.picture_width = static_cast<int>(node->integer("picture_width", output.picture_width, 16, 16384));

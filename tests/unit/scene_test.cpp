@@ -126,7 +126,7 @@ TEST(Scene, SettingsAreTheDefaultsUnlessStated) {
 run: {sub_models: auto, split: slabs, coupling: none, coupling_leak: 0.5, skin: 0.1, recut_ghost_share: 0.4,
       iterations: 7, scheduler: serial, balancer: greedy, balance_every: 5, threads: 2, checkpoint_every: 9, max_speed: 3,
       engine_profile: physx, engine: ode}
-output: {every: 3, formats: [csv, vtkhdf], pictures: no, picture_width: 300}
+output: {folder: here, quiet: true, every: 3, formats: [csv, vtkhdf], pictures: no, picture_width: 300}
 )");
   EXPECT_EQ(set.run.sub_models, 0);
   EXPECT_EQ(set.run.split, "slabs");
@@ -136,6 +136,8 @@ output: {every: 3, formats: [csv, vtkhdf], pictures: no, picture_width: 300}
   EXPECT_EQ(set.run.checkpoint_every, 9);
   EXPECT_EQ(set.run.engine_profile, "physx");
   EXPECT_EQ(set.output.formats, (std::vector<std::string>{"csv", "vtkhdf"}));
+  EXPECT_EQ(set.output.folder, "here");
+  EXPECT_TRUE(set.output.quiet);
   EXPECT_FALSE(set.output.pictures);
   EXPECT_EQ(set.output.picture_width, 300);
 }
