@@ -12,22 +12,22 @@ import xml.etree.ElementTree
 
 try:
     from vtkmodules.vtkCommonCore import vtkCommand
+    from vtkmodules.vtkIOHDF import vtkHDFReader
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 except ImportError as error:
     sys.stderr.write(f"VTK for Python is missing, install python3-vtk9: {error}\n")
     sys.exit(3)
 
 
-def read(path):
-    """The grid in a .vtu; ends the program if VTK complains."""
+def read(path, reader):
+    """The grid in a file; ends the program if VTK complains."""
     errors = []
-    reader = vtkXMLUnstructuredGridReader()
     reader.AddObserver(vtkCommand.ErrorEvent, lambda *_: errors.append(path))
     reader.SetFileName(path)
     reader.Update()
     if errors or reader.GetErrorCode():
         sys.exit(f"VTK cannot read {path}")
-    return reader.GetOutput()
+    return reader.GetOutputDataObject(0)
 
 
 def values(array):
@@ -65,7 +65,16 @@ def frames(folder, group):
         yield float(entry.get("timestep")), os.path.join(folder, entry.get("file"))
 
 
-result = {}
-for group in ("elements", "ghosts", "bonds"):
-    result[group] = [{"time": time, **describe(read(path))} for time, path in frames(sys.argv[1], group)]
+def describe_group(group):
+    return [
+        {"time": time, **describe(read(path, vtkXMLUnstructuredGridReader()))}
+        for time, path in frames(sys.argv[1], group)
+    ]
+
+
+result = {group: describe_group(group) for group in ("elements", "ghosts", "bonds")}
+temporal = os.path.join(sys.argv[1], "elements.vtkhdf")
+if os.path.exists(temporal):
+    # The reader of VTK 9.1 takes the frames for parts of one grid.
+    result["vtkhdf"] = describe(read(temporal, vtkHDFReader()))
 json.dump(result, sys.stdout)

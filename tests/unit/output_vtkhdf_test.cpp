@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reader of VTK 9.1 knows VTKHDF 1 only, so the file is checked against the format's description by HDF5 itself.
+// The reader of VTK 9.1 knows VTKHDF 1 only: it takes frames for parts. So HDF5 itself checks the file against the
+// format's description, and VTK reads the parts.
 #include <gtest/gtest.h>
 
 #include "output/hdf5_file.hpp"
 #include "output/writer.hpp"
 #include "output_sample.hpp"
+#include "output_vtk.hpp"
 #include "physics/errors.hpp"
 
 namespace moraine {
@@ -97,6 +99,19 @@ TEST_F(VtkHdf, NamesTypeVersionAndSteps) {
   EXPECT_EQ(version[1], 0);
   EXPECT_EQ(std::string(text), "UnstructuredGrid");
   EXPECT_EQ(steps, 3);
+}
+
+TEST_F(VtkHdf, VtkReadsTheFramesAsParts) {
+  const sample::Json seen = sample::seen_by_vtk(folder_.path())["vtkhdf"];
+  ASSERT_EQ(seen["points"].size(), 27u);
+  ASSERT_EQ(seen["cells"].size(), 27u);
+  const Frame last = sample::frame(scene_, 120);
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_EQ(seen["cells"][17 + i], sample::Json::array({17 + i}));
+    EXPECT_EQ(seen["points"][17 + i][0], last.elements.state[i].pose.position.x());
+    EXPECT_EQ(seen["point_data"]["id"][17 + i], last.elements.id[i]);
+    EXPECT_EQ(seen["point_data"]["velocity"][17 + i][2], last.elements.state[i].twist.linear.z());
+  }
 }
 
 TEST(VtkHdfErrors, NameTheFile) {

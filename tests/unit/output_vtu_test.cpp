@@ -1,36 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-
-#include <cstdio>
-#include <cstdlib>
-#include <nlohmann/json.hpp>
 
 #include "output/file.hpp"
 #include "output/vtu.hpp"
 #include "output/writer.hpp"
 #include "output/zlib_blocks.hpp"
 #include "output_sample.hpp"
+#include "output_vtk.hpp"
 #include "physics/errors.hpp"
 
 namespace moraine {
 namespace {
 
-using Json = nlohmann::json;
-
-/// What VTK's own reader finds in the folder.
-Json seen_by_vtk(const std::filesystem::path& folder) {
-  const std::string command =
-      std::string("/usr/bin/python3 " MORAINE_SOURCE_DIR "/tests/support/vtk_check.py ") + folder.string();
-  std::FILE* pipe = popen(command.c_str(), "r");
-  if (!pipe) throw std::runtime_error("cannot run " + command);
-  std::string text;
-  for (int c; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
-  const int status = pclose(pipe);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 3) throw std::runtime_error("the package python3-vtk9 is missing");
-  if (status != 0) throw std::runtime_error("vtk_check.py failed: " + command);
-  return Json::parse(text);
-}
+using sample::Json;
+using sample::seen_by_vtk;
 
 Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
