@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <set>
@@ -80,6 +81,14 @@ TEST(SceneFiles, DamHasUnitSpheresAndScalesWithItsCount) {
       }
     }
   }
+}
+
+TEST(SceneFiles, TheFirstExampleOfTheReferenceReads) {
+  std::ifstream in(std::filesystem::path(MORAINE_SOURCE_DIR) / "docs/scenes.md");
+  const std::string page((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const std::string fence = "```yaml\n";
+  const auto begin = page.find(fence) + fence.size();
+  EXPECT_EQ(scene_of(page.substr(begin, page.find("```", begin) - begin)).elements.size(), 500u);
 }
 
 TEST(Scene, ExpressionsUseParametersAndConstants) {
