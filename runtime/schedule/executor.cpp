@@ -23,13 +23,16 @@ using Clock = std::chrono::steady_clock;
 
 double seconds(Clock::duration span) { return std::chrono::duration<double>(span).count(); }
 
+/// Without this, oneTBB would lend no more threads than cores. It is set once and for all: after a change of the limit
+/// oneTBB 2021.8 may leave the next arena without threads.
+void allow_more_threads_than_cores() {
+  static const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 256);
+}
+
 }  // namespace
 
-/// Without the control, oneTBB would lend no more threads than cores.
 struct Executor::Threads {
-  explicit Threads(int workers)
-      : limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(workers)), arena(workers) {}
-  tbb::global_control limit;
+  explicit Threads(int workers) : arena(workers) { allow_more_threads_than_cores(); }
   tbb::task_arena arena;
 };
 
