@@ -143,6 +143,30 @@ TEST(Executor, StartsNothingAfterAFailureAndCanRunAgain) {
   EXPECT_EQ(load.tasks(), 3 * 101);
 }
 
+/// Two tasks meet if two threads run them; one thread alone waits in vain.
+bool two_tasks_meet(Executor& executor, const StepGraph& graph) {
+  std::atomic<int> here = 0;
+  std::atomic<bool> met = false;
+  executor.run(graph, {0, 0}, [&](Task, int) {
+    ++here;
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (here < 2 && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+    met = std::chrono::steady_clock::now() < deadline;
+  });
+  return met;
+}
+
+TEST(Executor, LendsThreadsToEachExecutorAfterAnother) {
+  GossipModel model(2, {{"a"}});
+  const StepGraph graph = build_step_graph(model);
+  for (const int workers : {1, 2, 4, 1, 2, 3, 2, 1, 2}) {
+    Executor executor(workers, find_scheduler("hybrid").make());
+    executor.run(graph, {0, 1}, [](Task, int) {});
+    if (workers == 1) continue;
+    EXPECT_TRUE(two_tasks_meet(executor, graph)) << workers;
+  }
+}
+
 /// Keeps everything to itself.
 class Miser final : public Scheduler {
  public:
