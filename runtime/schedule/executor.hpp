@@ -24,10 +24,10 @@ class Executor {
 
   int workers() const { return workers_; }
 
-  /// Runs every node of the graph in the opening round and `epoch.rounds` more; returns when all are done. Does not
-  /// spin. Errors: if tasks throw, no more are started; when those running have ended, RunError for the first of the
-  /// failed by (round, stage, sub-model). std::logic_error if the policy breaks its contract. Cost: a fraction of a
-  /// microsecond per task beside its work.
+  /// Runs every node of the graph in the opening round and `epoch.rounds` more; returns when all are done. Idle
+  /// threads sleep, after oneTBB has looked for work for a moment. Errors: if tasks throw, no more are started; when
+  /// those running have ended, RunError for the first of the failed by (round, stage, sub-model). std::logic_error if
+  /// the policy breaks its contract. Cost: a fraction of a microsecond per task beside its work.
   LoadRecord run(const StepGraph& graph, const Epoch& epoch, const Work& work, TaskObserver* observer = nullptr);
 
  private:
