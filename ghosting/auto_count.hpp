@@ -14,8 +14,8 @@ double expected_ghost_share(double elements);
 /// Elements per sub-model at which measured engine cost times (1 + ghost share) is least.
 double cheapest_size(const Engine& engine);
 
-/// Sub-models for a scene of `elements`: its size over the cheapest one, more if the engine's limits ask for it. Depends
-/// on scene and engine only, never on cores or ranks.
+/// Sub-models for a scene of `elements`: its size over the cheapest one, more if the engine's limits ask for it.
+/// Depends on scene and engine only, never on cores or ranks.
 std::size_t auto_count(std::size_t elements, const Engine& engine, const Limits& limits);
 
 }  // namespace moraine

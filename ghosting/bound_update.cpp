@@ -7,7 +7,8 @@
 namespace moraine {
 namespace {
 
-constexpr double drop_factor = 1.5;  // ghosts are made below the skin and dropped above 1.5 skins, so they do not flicker
+constexpr double drop_factor =
+    1.5;  // ghosts are made below the skin and dropped above 1.5 skins, so they do not flicker
 
 std::array<double, 3> point(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -36,7 +37,8 @@ void SubModel::update_bounds() {
 /// By distance, with memory, and by bond.
 void SubModel::choose_hosted(OwnerLink& link) {
   find_touching(link, found_);
-  std::erase_if(link.bonds, [&](const CrossBond& b) { return std::binary_search(broken_.begin(), broken_.end(), b.bond); });
+  std::erase_if(link.bonds,
+                [&](const CrossBond& b) { return std::binary_search(broken_.begin(), broken_.end(), b.bond); });
   for (const CrossBond& b : link.bonds) found_.push_back(b.own);
   std::sort(found_.begin(), found_.end());
   found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
@@ -126,8 +128,10 @@ void SubModel::send_ghosts(const OwnerLink& link, runtime::Port& port) {
   bound_message_.ghosts.clear();
   for (const std::uint32_t e : link.hosted) {
     const SharedElement& shared = *find_shared(e);
-    const auto copy = std::find_if(shared.copies.begin(), shared.copies.end(), [&](auto& c) { return c.world == link.host; });
-    bound_message_.ghosts.push_back({e, static_cast<std::uint32_t>(shared.copies.size()),
+    const auto copy =
+        std::find_if(shared.copies.begin(), shared.copies.end(), [&](auto& c) { return c.world == link.host; });
+    bound_message_.ghosts.push_back({e,
+                                     static_cast<std::uint32_t>(shared.copies.size()),
                                      {shared.state.pose, sum(shared.state.twist, copy->offset)}});
   }
   bound_message_.broken_bonds = newly_broken_;

@@ -6,8 +6,8 @@ namespace moraine {
 
 class CoupledModel;
 
-/// Every element owned once; ghost lists of host and owner equal; every ghost's owner is its element's; the loads copies
-/// carry sum to nothing. Errors: std::logic_error naming what is broken. Cost: linear in elements and ghosts.
+/// Every element owned once; ghost lists of host and owner equal; every ghost's owner is its element's; the loads
+/// copies carry sum to nothing. Errors: std::logic_error naming what is broken. Cost: linear in elements and ghosts.
 void verify_invariants(const CoupledModel& model);
 
 #ifdef MORAINE_CHECKS

@@ -3,10 +3,10 @@
 //
 // With v the mean of the copies' velocities v_c, the offsets d_c, by which the copies start apart, follow
 //   d_c <- f d_c + (v - v_c)
-// so that a copy which was held back or pushed starts the next substep with the opposite. In the steady state m/k d_c is
-// the load that copy carries for the others. The mean is exact for momentum (every contact exists in one world only) and
-// the offsets sum to zero. It is the scaled dual update of consensus ADMM (Boyd et al. 2011, eq. 7.3-7.5) interleaved
-// with the time steps, with a leak f < 1 that keeps it from gaining energy.
+// so that a copy which was held back or pushed starts the next substep with the opposite. In the steady state m/k d_c
+// is the load that copy carries for the others. The mean is exact for momentum (every contact exists in one world only)
+// and the offsets sum to zero. It is the scaled dual update of consensus ADMM (Boyd et al. 2011, eq. 7.3-7.5)
+// interleaved with the time steps, with a leak f < 1 that keeps it from gaining energy.
 #include "ghosting/coupling.hpp"
 
 namespace moraine {
@@ -41,7 +41,8 @@ class Consensus final : public Coupling {
     const std::vector<Copy> before = std::move(shared.copies);
     shared.copies.clear();
     for (const SubModelId w : worlds) shared.copies.push_back({w, {}});
-    const double rescale = static_cast<double>(worlds.size()) / std::max<double>(1.0, static_cast<double>(before.size()));
+    const double rescale =
+        static_cast<double>(worlds.size()) / std::max<double>(1.0, static_cast<double>(before.size()));
     for (const Copy& old : before) {
       Copy* heir = find(shared.copies, old.world);
       if (!heir) heir = find(shared.copies, owner);

@@ -58,7 +58,8 @@ void SubModel::drop_ghost(HostLink& link, const Ghost& ghost) {
 
 /// A bond across a cut lives where its ghost is.
 void SubModel::hold_bonds(HostLink& link) {
-  std::erase_if(link.bonds, [&](const CrossBond& b) { return std::binary_search(broken_.begin(), broken_.end(), b.bond); });
+  std::erase_if(link.bonds,
+                [&](const CrossBond& b) { return std::binary_search(broken_.begin(), broken_.end(), b.bond); });
   for (const CrossBond& b : link.bonds) {
     if (std::binary_search(link.held.begin(), link.held.end(), b.bond)) continue;
     const auto ghost = std::lower_bound(link.ghosts.begin(), link.ghosts.end(), b.other,

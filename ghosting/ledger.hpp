@@ -8,12 +8,12 @@ namespace moraine {
 
 /// Sums over a sub-model's own elements; angular parts about the world origin.
 struct Ledger {
-  Impulse momentum;      ///< now [kg m/s, kg m^2/s]
-  Impulse given;         ///< by gravity and boundaries since the start
-  double exchanged = 0;  ///< sum of the magnitudes of what was given, linear [N s]
-  double kinetic_energy = 0;  ///< now [J]
-  double speed_sum = 0;  ///< sum of m |v| now
-  double spin_scale = 0; ///< sum of |m x cross v| + |I w| now
+  Impulse momentum;                 ///< now [kg m/s, kg m^2/s]
+  Impulse given;                    ///< by gravity and boundaries since the start
+  double exchanged = 0;             ///< sum of the magnitudes of what was given, linear [N s]
+  double kinetic_energy = 0;        ///< now [J]
+  double speed_sum = 0;             ///< sum of m |v| now
+  double spin_scale = 0;            ///< sum of |m x cross v| + |I w| now
   Vec3 mass_moment = Vec3::Zero();  ///< sum of m x now
   double mass = 0;
 

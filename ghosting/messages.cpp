@@ -37,7 +37,8 @@ WireResult wire(const GhostResult& r) {
   return w;
 }
 GhostResult plain(const WireResult& w) {
-  return {w.element, 0,
+  return {w.element,
+          0,
           {vec(w.motion.displacement), vec(w.motion.rotation), {vec(w.motion.linear), vec(w.motion.angular)}}};
 }
 
@@ -60,8 +61,7 @@ WireOrder wire(const GhostOrder& g) {
 }
 GhostOrder plain(const WireOrder& w) {
   const double* q = w.orientation;
-  return {w.element, w.copies,
-          {{vec(w.position), Quat(q[0], q[1], q[2], q[3])}, {vec(w.linear), vec(w.angular)}}};
+  return {w.element, w.copies, {{vec(w.position), Quat(q[0], q[1], q[2], q[3])}, {vec(w.linear), vec(w.angular)}}};
 }
 
 template <class Wire, class Plain>

@@ -26,8 +26,8 @@ struct BorderElement {
 
 /// Host to owner.
 struct StepMessage {
-  std::vector<GhostResult> results;       ///< ascending element
-  std::vector<BorderElement> border;      ///< ascending element
+  std::vector<GhostResult> results;         ///< ascending element
+  std::vector<BorderElement> border;        ///< ascending element
   std::vector<std::uint32_t> broken_bonds;  ///< ascending
 
   void write(std::vector<std::byte>& out) const;
@@ -43,9 +43,9 @@ struct GhostOrder {
 
 /// Owner to host.
 struct BoundMessage {
-  Bounds bounds;        ///< of the owner's elements
-  double max_speed = 0; ///< of the owner's elements [m/s]
-  std::vector<GhostOrder> ghosts;  ///< ascending element; ghosts not listed are dropped
+  Bounds bounds;                            ///< of the owner's elements
+  double max_speed = 0;                     ///< of the owner's elements [m/s]
+  std::vector<GhostOrder> ghosts;           ///< ascending element; ghosts not listed are dropped
   std::vector<std::uint32_t> broken_bonds;  ///< ascending
 
   void write(std::vector<std::byte>& out) const;

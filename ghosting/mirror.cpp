@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mirror: the scheme of Longshaw et al. (2009) read literally, kept for comparison. Ghosts have the full mass and live on
-// both sides of a cut; each starts a substep with its parent's state and is given the forces that acted on its parent in
-// the last one. Each side keeps its own contact impulse, so momentum is not conserved and tall stacks are not stable.
+// Mirror: the scheme of Longshaw et al. (2009) read literally, kept for comparison. Ghosts have the full mass and live
+// on both sides of a cut; each starts a substep with its parent's state and is given the forces that acted on its
+// parent in the last one. Each side keeps its own contact impulse, so momentum is not conserved and tall stacks are not
+// stable.
 #include "ghosting/coupling.hpp"
 
 namespace moraine {

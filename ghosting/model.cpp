@@ -21,23 +21,26 @@ constexpr std::int64_t rounds_between_cuts = 64;
 void check_shapes(const Scene& scene, const Engine& engine) {
   for (const Element& e : scene.elements)
     if (!engine.supports(scene.shapes[e.shape].geometry))
-      throw InputError(fmt::format("{}: element {} has a shape that engine {} cannot do", scene.source, e.id, engine.name));
+      throw InputError(
+          fmt::format("{}: element {} has a shape that engine {} cannot do", scene.source, e.id, engine.name));
 }
 
 std::size_t part_count(const Scene& scene, const Engine& engine, const Limits& limits) {
   const auto asked = static_cast<std::size_t>(std::max(0, scene.run.sub_models));
   const std::size_t parts = asked > 0 ? asked : auto_count(scene.elements.size(), engine, limits);
   if (parts > limits.worlds)
-    throw InputError(fmt::format("{}: {} sub-models are more than the {} worlds that engine {} ({}) allows in a process",
-                                 scene.source, parts, limits.worlds, engine.name, scene.run.engine_profile));
+    throw InputError(
+        fmt::format("{}: {} sub-models are more than the {} worlds that engine {} ({}) allows in a process",
+                    scene.source, parts, limits.worlds, engine.name, scene.run.engine_profile));
   const double capacity = static_cast<double>(limits.packed_spheres()) * (1 - limits.ghost_reserve);
   const double largest = std::ceil(static_cast<double>(scene.elements.size()) / static_cast<double>(parts));
   if (largest > capacity)
-    throw InputError(fmt::format(
-        "{}: {:.0f} elements per sub-model are more than engine {} ({}) holds: {} touching elements, {:.0f} % of them kept "
-        "for ghosts; use at least {:.0f} sub-models",
-        scene.source, largest, engine.name, scene.run.engine_profile, limits.packed_spheres(), limits.ghost_reserve * 100,
-        std::ceil(static_cast<double>(scene.elements.size()) / capacity)));
+    throw InputError(
+        fmt::format("{}: {:.0f} elements per sub-model are more than engine {} ({}) holds: {} touching elements, "
+                    "{:.0f} % of them kept "
+                    "for ghosts; use at least {:.0f} sub-models",
+                    scene.source, largest, engine.name, scene.run.engine_profile, limits.packed_spheres(),
+                    limits.ghost_reserve * 100, std::ceil(static_cast<double>(scene.elements.size()) / capacity)));
   return parts;
 }
 
@@ -49,11 +52,13 @@ double runaway_speed(const Scene& scene) {
   double speed = 0;
   for (const Element& e : scene.elements) {
     box.add(e.state.pose.position, scene.shape_of(e).bounding_radius);
-    speed = std::max(speed, e.state.twist.linear.norm() + e.state.twist.angular.norm() * scene.shape_of(e).bounding_radius);
+    speed =
+        std::max(speed, e.state.twist.linear.norm() + e.state.twist.angular.norm() * scene.shape_of(e).bounding_radius);
   }
   const double extent = box.empty() ? 1.0 : (box.max - box.min).norm();
   for (const Boundary& b : scene.boundaries)
-    if (b.motion.moves()) speed = std::max(speed, b.motion.velocity.linear.norm() + b.motion.velocity.angular.norm() * extent);
+    if (b.motion.moves())
+      speed = std::max(speed, b.motion.velocity.linear.norm() + b.motion.velocity.angular.norm() * extent);
   const double fall = std::sqrt(2 * scene.gravity.norm() * extent);
   const double bond_speed = scene.typical_diameter() / scene.time.substep();
   return 10 * (speed + fall) + (scene.gravity.isZero() && speed == 0 ? bond_speed : 0);
@@ -100,16 +105,18 @@ Limits find_limits(std::string_view profile) {
   throw InputError(fmt::format("unknown engine profile '{}', expected one of: default, physx", profile));
 }
 
-CoupledModel::CoupledModel(const Scene& scene) : coupling_(make_coupling(scene.run.coupling)), split_(find_split(scene.run.split)) {
+CoupledModel::CoupledModel(const Scene& scene) : coupling_(make_coupling(scene.run.coupling)) {
   context_.scene = &scene;
   context_.engine = &find_engine(scene.run.engine);
   context_.coupling = coupling_.get();
   context_.world = world_settings(scene);
-  for (const Bond& b : scene.bonds) context_.bond_ends.push_back({element_index(scene, b.a), element_index(scene, b.b)});
+  for (const Bond& b : scene.bonds)
+    context_.bond_ends.push_back({element_index(scene, b.a), element_index(scene, b.b)});
   context_.skin = scene.run.skin * context_.world.length_unit;
   context_.speed_limit = runaway_speed(scene);
   check_shapes(scene, *context_.engine);
   parts_ = part_count(scene, *context_.engine, context_.world.limits);
+  split_ = &find_split(scene.run.split, scene, parts_);
   std::vector<ElementState> states;
   for (const Element& e : scene.elements) states.push_back(e.state);
   cut(states);
@@ -122,7 +129,7 @@ CoupledModel::~CoupledModel() = default;
 void CoupledModel::cut(std::span<const ElementState> states) {
   std::vector<Vec3> positions;
   for (const ElementState& s : states) positions.push_back(s.pose.position);
-  owners_ = split_(positions, parts_);
+  owners_ = split_->split({positions, scene().gravity, parts_});
   std::vector<std::vector<std::uint32_t>> members(parts_), bonds(parts_);
   for (std::uint32_t e = 0; e < owners_.size(); ++e) members[owners_[e]].push_back(e);
   for (const std::uint32_t b : alive_bonds()) {
@@ -209,8 +216,8 @@ void CoupledModel::take_over_accounts() {
 void CoupledModel::settle_neighbours(std::int64_t at_most) {
   std::vector<Reach> reaches;
   for (const auto& part : sub_models_) reaches.push_back({part->bounds(), part->max_speed()});
-  const Neighbourhood near = find_neighbours(reaches, context_.world.length_unit, scene().gravity.norm(),
-                                             context_.world.substep, at_most);
+  const Neighbourhood near =
+      find_neighbours(reaches, context_.world.length_unit, scene().gravity.norm(), context_.world.substep, at_most);
   epoch_rounds_ = near.rounds;
 
   std::map<std::pair<SubModelId, SubModelId>, std::vector<std::uint32_t>> pairs;

@@ -44,6 +44,7 @@ class CoupledModel final : public runtime::Model {
   std::int64_t begin_epoch(std::int64_t next_round, std::int64_t at_most) override;
 
   const Scene& scene() const { return *context_.scene; }
+  const SplitRow& split() const { return *split_; }
   const SubModel& part(std::size_t i) const { return *sub_models_[i]; }
   /// Canonical state of every element, ascending id.
   std::vector<ElementState> states() const;
@@ -64,7 +65,7 @@ class CoupledModel final : public runtime::Model {
 
   ModelContext context_;
   std::unique_ptr<Coupling> coupling_;
-  Split split_;
+  const SplitRow* split_ = nullptr;
   std::size_t parts_ = 1;
   std::vector<std::unique_ptr<SubModel>> sub_models_;
   std::vector<SubModelId> owners_;

@@ -22,8 +22,8 @@ struct Neighbourhood {
   std::int64_t rounds = 1;                               ///< for which no other pair can meet
 };
 
-/// Sub-models whose bounds come closer than a margin are neighbours. The margin is what elements may travel in the epoch
-/// at twice today's largest speed plus free fall: two diameters, or more if that would last less than 8 rounds.
+/// Sub-models whose bounds come closer than a margin are neighbours. The margin is what elements may travel in the
+/// epoch at twice today's largest speed plus free fall: two diameters, or more if that would last less than 8 rounds.
 Neighbourhood find_neighbours(std::span<const Reach> reaches, double diameter, double gravity, double substep,
                               std::int64_t at_most);
 

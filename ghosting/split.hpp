@@ -11,9 +11,16 @@
 
 namespace moraine {
 
-/// A split is a function of positions and part count alone, never of cores or ranks. Returns one part number per
-/// position. Parts differ in size by at most one element; ties go by index. Cost: O(n log n) times log(parts).
-using Split = std::vector<SubModelId> (*)(std::span<const Vec3> positions, std::size_t parts);
+/// What a split may depend on: the scene alone, never cores or ranks.
+struct SplitInput {
+  std::span<const Vec3> positions;
+  Vec3 gravity = Vec3::Zero();
+  std::size_t parts = 1;
+};
+
+/// Returns one part number per position. Parts differ in size by at most one element; ties go by index.
+/// Cost: O(n log n) times log(parts).
+using Split = std::vector<SubModelId> (*)(const SplitInput& input);
 
 struct SplitRow {
   std::string_view name;
@@ -22,12 +29,14 @@ struct SplitRow {
 };
 
 std::span<const SplitRow> splits();
+/// The row of a name. "auto" is pillars if the scene has gravity and each would be at least 5 diameters wide, else rcb.
 /// Errors: InputError that prints the table.
-Split find_split(std::string_view name);
+const SplitRow& find_split(std::string_view name, const Scene& scene, std::size_t parts);
 
-std::vector<SubModelId> split_slabs(std::span<const Vec3> positions, std::size_t parts);
-std::vector<SubModelId> split_rcb(std::span<const Vec3> positions, std::size_t parts);
-std::vector<SubModelId> split_curve(std::span<const Vec3> positions, std::size_t parts);
+std::vector<SubModelId> split_slabs(const SplitInput& input);
+std::vector<SubModelId> split_rcb(const SplitInput& input);
+std::vector<SubModelId> split_pillars(const SplitInput& input);
+std::vector<SubModelId> split_curve(const SplitInput& input);
 
 /// The axis along which a set of points is longest; the lower axis if equal.
 int longest_axis(std::span<const Vec3> positions, std::span<const std::uint32_t> subset);

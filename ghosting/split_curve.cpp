@@ -50,7 +50,8 @@ std::uint64_t hilbert_key(const Vec3& p, const Bounds& box, double edge) {
 
 }  // namespace
 
-std::vector<SubModelId> split_curve(std::span<const Vec3> positions, std::size_t parts) {
+std::vector<SubModelId> split_curve(const SplitInput& input) {
+  const auto& positions = input.positions;
   Bounds box;
   for (const Vec3& p : positions) box.add(p);
   const double extent = positions.empty() ? 1.0 : (box.max - box.min).maxCoeff();
@@ -60,7 +61,7 @@ std::vector<SubModelId> split_curve(std::span<const Vec3> positions, std::size_t
   std::sort(order.begin(), order.end());
   std::vector<SubModelId> out(positions.size());
   for (std::size_t k = 0; k < order.size(); ++k)
-    out[order[k].second] = static_cast<SubModelId>(k * parts / order.size());
+    out[order[k].second] = static_cast<SubModelId>(k * input.parts / order.size());
   return out;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recursive coordinate bisection (Berger & Bokhari 1987), and slabs as its one-axis form.
+// Recursive coordinate bisection (Berger & Bokhari 1987), its form seen along gravity, and slabs.
 #include <algorithm>
 #include <numeric>
 
@@ -41,18 +41,26 @@ void bisect(std::span<const Vec3> positions, Subset subset, SubModelId first, st
 
 }  // namespace
 
-std::vector<SubModelId> split_rcb(std::span<const Vec3> positions, std::size_t parts) {
-  std::vector<SubModelId> out(positions.size(), 0);
-  std::vector<std::uint32_t> all = everyone(positions.size());
-  bisect(positions, all, 0, parts, out);
+std::vector<SubModelId> split_rcb(const SplitInput& input) {
+  std::vector<SubModelId> out(input.positions.size(), 0);
+  std::vector<std::uint32_t> all = everyone(input.positions.size());
+  bisect(input.positions, all, 0, input.parts, out);
   return out;
 }
 
-std::vector<SubModelId> split_slabs(std::span<const Vec3> positions, std::size_t parts) {
-  std::vector<SubModelId> out(positions.size(), 0);
-  std::vector<std::uint32_t> all = everyone(positions.size());
-  std::sort(all.begin(), all.end(), Along{positions, longest_axis(positions, all)});
-  for (std::size_t k = 0; k < all.size(); ++k) out[all[k]] = static_cast<SubModelId>(k * parts / all.size());
+std::vector<SubModelId> split_pillars(const SplitInput& input) {
+  const Vec3 down = input.gravity.isZero() ? Vec3(-Vec3::UnitZ()) : Vec3(input.gravity.normalized());
+  std::vector<Vec3> seen_from_above;
+  seen_from_above.reserve(input.positions.size());
+  for (const Vec3& p : input.positions) seen_from_above.push_back(p - down * down.dot(p));
+  return split_rcb({seen_from_above, input.gravity, input.parts});
+}
+
+std::vector<SubModelId> split_slabs(const SplitInput& input) {
+  std::vector<SubModelId> out(input.positions.size(), 0);
+  std::vector<std::uint32_t> all = everyone(input.positions.size());
+  std::sort(all.begin(), all.end(), Along{input.positions, longest_axis(input.positions, all)});
+  for (std::size_t k = 0; k < all.size(); ++k) out[all[k]] = static_cast<SubModelId>(k * input.parts / all.size());
   return out;
 }
 

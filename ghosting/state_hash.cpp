@@ -15,8 +15,19 @@ std::uint64_t state_hash(const Scene& scene, std::span<const ElementState> state
     const Vec3 &x = states[i].pose.position, &v = states[i].twist.linear, &w = states[i].twist.angular;
     const Quat& q = states[i].pose.orientation;
     const std::array<double, 14> row{static_cast<double>(scene.elements[i].id),
-                                     x.x(), x.y(), x.z(), q.w(), q.x(), q.y(), q.z(),
-                                     v.x(), v.y(), v.z(), w.x(), w.y(), w.z()};
+                                     x.x(),
+                                     x.y(),
+                                     x.z(),
+                                     q.w(),
+                                     q.x(),
+                                     q.y(),
+                                     q.z(),
+                                     v.x(),
+                                     v.y(),
+                                     v.z(),
+                                     w.x(),
+                                     w.y(),
+                                     w.z()};
     XXH3_64bits_update(hash.get(), row.data(), sizeof row);
   }
   return XXH3_64bits_digest(hash.get());

@@ -40,9 +40,10 @@ void SubModel::check_motions(const runtime::Round& round) const {
     const auto step = round.number / context_.scene->time.substeps;
     const ElementId id = context_.scene->elements[members_[i]].id;
     if (std::isfinite(speed2) && speed2 > limit)
-      throw InvalidStateError(fmt::format("element {} runs away at step {}: speed {:.4g} m/s, the limit is {:.4g} m/s "
-                                          "(run.max_speed); try a smaller dt or more substeps",
-                                          id, step, std::sqrt(speed2), context_.speed_limit));
+      throw InvalidStateError(
+          fmt::format("element {} runs away at step {}: speed {:.4g} m/s, the limit is {:.4g} m/s "
+                      "(run.max_speed); try a smaller dt or more substeps",
+                      id, step, std::sqrt(speed2), context_.speed_limit));
     throw InvalidStateError(fmt::format("element {} has a state that is not a number at step {}", id, step));
   }
 }
@@ -61,7 +62,8 @@ void SubModel::report(const HostLink& link, bool opening, StepMessage& message) 
   if (!opening) {
     for (const Ghost& ghost : link.ghosts) message.results.push_back(result(ghost));
     for (const CrossBond& b : link.bonds)
-      if (std::binary_search(newly_broken_.begin(), newly_broken_.end(), b.bond)) message.broken_bonds.push_back(b.bond);
+      if (std::binary_search(newly_broken_.begin(), newly_broken_.end(), b.bond))
+        message.broken_bonds.push_back(b.bond);
     std::sort(message.broken_bonds.begin(), message.broken_bonds.end());
   }
   // The owner's bounds are a substep old: its elements have moved at most this far since.
@@ -75,7 +77,8 @@ void SubModel::report(const HostLink& link, bool opening, StepMessage& message) 
 
 GhostResult SubModel::result(const Ghost& ghost) const {
   const ElementState end = world_->state(ghost.slot);
-  return {ghost.element, 0,
+  return {ghost.element,
+          0,
           {end.pose.position - ghost.start.pose.position,
            rotation_between(ghost.start.pose.orientation, end.pose.orientation), end.twist}};
 }

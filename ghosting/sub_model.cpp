@@ -66,10 +66,14 @@ std::span<const runtime::SubModelId> SubModel::targets(int stage) const {
 
 void SubModel::run(int stage, const runtime::Round& round, runtime::Port& port) {
   switch (stage) {
-    case ghost_build_stage: return ghost_build(round, port);
-    case step_stage: return step(round, port);
-    case force_mirror_stage: return force_mirror(round, port);
-    case bound_update_stage: return bound_update(round, port);
+    case ghost_build_stage:
+      return ghost_build(round, port);
+    case step_stage:
+      return step(round, port);
+    case force_mirror_stage:
+      return force_mirror(round, port);
+    case bound_update_stage:
+      return bound_update(round, port);
   }
 }
 
@@ -79,10 +83,14 @@ double SubModel::counted_work(int stage) const {
   const auto ghosts = static_cast<double>(ghost_count());
   const StepWork work = world_->work();
   switch (stage) {
-    case ghost_build_stage: return 0.1 * ghosts;
-    case step_stage: return static_cast<double>(work.bodies + work.contacts) + 0.2 * static_cast<double>(work.bonds);
-    case force_mirror_stage: return 0.1 * static_cast<double>(shared_.size()) + 0.02 * members;
-    default: return 0.1 * static_cast<double>(shared_.size()) + 0.02 * members;
+    case ghost_build_stage:
+      return 0.1 * ghosts;
+    case step_stage:
+      return static_cast<double>(work.bodies + work.contacts) + 0.2 * static_cast<double>(work.bonds);
+    case force_mirror_stage:
+      return 0.1 * static_cast<double>(shared_.size()) + 0.02 * members;
+    default:
+      return 0.1 * static_cast<double>(shared_.size()) + 0.02 * members;
   }
 }
 

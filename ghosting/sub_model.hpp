@@ -31,9 +31,9 @@ struct ModelContext {
 
 /// A bond between an element of this sub-model and one of another.
 struct CrossBond {
-  std::uint32_t bond = 0;     ///< index into Scene::bonds
-  std::uint32_t own = 0;      ///< element here
-  std::uint32_t other = 0;    ///< element there
+  std::uint32_t bond = 0;   ///< index into Scene::bonds
+  std::uint32_t own = 0;    ///< element here
+  std::uint32_t other = 0;  ///< element there
 };
 
 /// A ghost in this world.
@@ -46,20 +46,20 @@ struct Ghost {
 /// This sub-model hosts ghosts of `owner`'s elements.
 struct HostLink {
   SubModelId owner = 0;
-  Bounds bounds;        ///< of the owner's elements, a substep old
+  Bounds bounds;  ///< of the owner's elements, a substep old
   double max_speed = 0;
-  std::vector<Ghost> ghosts;             ///< ascending element
-  std::vector<CrossBond> bonds;          ///< alive; other = the ghost
-  std::vector<std::uint32_t> held;       ///< bonds of these that are in the world, ascending
+  std::vector<Ghost> ghosts;        ///< ascending element
+  std::vector<CrossBond> bonds;     ///< alive; other = the ghost
+  std::vector<std::uint32_t> held;  ///< bonds of these that are in the world, ascending
 };
 
 /// `host` has ghosts of this sub-model's elements.
 struct OwnerLink {
   SubModelId host = 0;
-  std::vector<BorderElement> border;     ///< the host's elements near our bounds
-  std::vector<std::uint32_t> hosted;     ///< our elements that have a ghost there, ascending
-  std::vector<CrossBond> bonds;          ///< alive; own = the element that needs a ghost there
-  std::vector<GhostResult> results;      ///< of the last step
+  std::vector<BorderElement> border;  ///< the host's elements near our bounds
+  std::vector<std::uint32_t> hosted;  ///< our elements that have a ghost there, ascending
+  std::vector<CrossBond> bonds;       ///< alive; own = the element that needs a ghost there
+  std::vector<GhostResult> results;   ///< of the last step
 };
 
 class SubModel final : public runtime::SubModel {
@@ -152,8 +152,8 @@ class SubModel final : public runtime::SubModel {
   std::vector<HostLink> host_links_;    ///< ascending owner
   std::vector<OwnerLink> owner_links_;  ///< ascending host
   std::vector<runtime::SubModelId> owners_, hosts_;
-  std::vector<SharedElement> shared_;   ///< ascending element
-  std::vector<std::uint32_t> broken_;   ///< bonds known broken, ascending
+  std::vector<SharedElement> shared_;  ///< ascending element
+  std::vector<std::uint32_t> broken_;  ///< bonds known broken, ascending
   std::vector<std::uint32_t> newly_broken_;
 
   std::vector<BodyMotion> motions_;  ///< of members, canonical after the force mirror

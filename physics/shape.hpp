@@ -41,9 +41,9 @@ using Geometry = std::variant<Sphere, Cuboid, Capsule, ConvexHull, Compound>;
 /// A geometry with what follows from it. Elements refer to shapes by index, so equal elements share one.
 struct Shape {
   Geometry geometry;
-  double volume = 0;                             ///< [m^3]
-  Vec3 inertia_per_mass = Vec3::Zero();          ///< principal moments divided by the mass [m^2]
-  double bounding_radius = 0;                    ///< about the centre of mass [m]
+  double volume = 0;                     ///< [m^3]
+  Vec3 inertia_per_mass = Vec3::Zero();  ///< principal moments divided by the mass [m^2]
+  double bounding_radius = 0;            ///< about the centre of mass [m]
   const Sphere* sphere() const { return std::get_if<Sphere>(&geometry); }
 };
 

@@ -65,9 +65,7 @@ struct Bounds {
     return (min.array() <= o.max.array()).all() && (o.min.array() <= max.array()).all();
   }
   /// Distance from a point to the box [m]; 0 inside.
-  double distance(const Vec3& p) const {
-    return (min - p).cwiseMax(p - max).cwiseMax(Vec3::Zero()).norm();
-  }
+  double distance(const Vec3& p) const { return (min - p).cwiseMax(p - max).cwiseMax(Vec3::Zero()).norm(); }
 };
 
 }  // namespace moraine

@@ -27,10 +27,10 @@ struct Features {
 
 /// What one world of an engine may hold. A scene that needs more is refused, or cut finer.
 struct Limits {
-  std::size_t elements = SIZE_MAX;       ///< shapes, ghosts and boundaries included
+  std::size_t elements = SIZE_MAX;  ///< shapes, ghosts and boundaries included
   std::size_t contact_pairs = SIZE_MAX;
-  std::size_t worlds = SIZE_MAX;         ///< per process
-  double ghost_reserve = 0;              ///< share of the limit kept free for ghosts
+  std::size_t worlds = SIZE_MAX;  ///< per process
+  double ghost_reserve = 0;       ///< share of the limit kept free for ghosts
   /// Touching equal spheres (6 pairs each in a packed block) that fit, reserve not yet taken off.
   std::size_t packed_spheres() const { return std::min(elements, contact_pairs / 12); }
 };
@@ -42,7 +42,7 @@ struct WorldSettings {
   double time_unit = 1;    ///< sqrt(length_unit / g), or of the order of 100 substeps without gravity [s]
   double mass_unit = 1;    ///< typical element mass [kg]
   Vec3 gravity = Vec3::Zero();
-  double substep = 0;      ///< [s]
+  double substep = 0;  ///< [s]
   int iterations = 10;
   Features features;
   Limits limits;
@@ -70,12 +70,12 @@ using Slot = std::uint32_t;
 
 struct Contact {
   ElementId a = 0;
-  ElementId b = 0;          ///< the other element, or the boundary's index if with_boundary
+  ElementId b = 0;  ///< the other element, or the boundary's index if with_boundary
   bool with_boundary = false;
-  Vec3 point = Vec3::Zero();   ///< world frame [m]
-  Vec3 normal = Vec3::Zero();  ///< unit, towards a
-  double overlap = 0;          ///< [m], negative: gap
-  Vec3 impulse = Vec3::Zero(); ///< on a, over the last step [N s]
+  Vec3 point = Vec3::Zero();    ///< world frame [m]
+  Vec3 normal = Vec3::Zero();   ///< unit, towards a
+  double overlap = 0;           ///< [m], negative: gap
+  Vec3 impulse = Vec3::Zero();  ///< on a, over the last step [N s]
 };
 
 /// Deterministic counters of the work of the last step; never a clock.
@@ -120,7 +120,8 @@ class World {
   /// Forgets whatever a saved world cannot carry. Called in every world at the same step, whether it is saved, moved or
   /// stays, so that all three continue alike.
   virtual void canonicalise() = 0;
-  /// Bit-exact image of the world right after canonicalise(); load() into a world made with the same settings continues as this one would.
+  /// Bit-exact image of the world right after canonicalise(); load() into a world made with the same settings continues
+  /// as this one would.
   virtual void save(std::vector<std::byte>& out) const = 0;
   virtual void load(std::span<const std::byte> in) = 0;
 };

@@ -64,14 +64,16 @@ Summary summarise(const CoupledModel& model, const runtime::Simulation& simulati
   const OverlapStatistics overlaps = model.overlaps();
   const runtime::LoadRecord& load = simulation.load();
   const Frame::Bodies elements = capture_elements(model);
-  const auto share = [&](double ghosts) { return elements.size() == 0 ? 0 : ghosts / static_cast<double>(elements.size()); };
+  const auto share = [&](double ghosts) {
+    return elements.size() == 0 ? 0 : ghosts / static_cast<double>(elements.size());
+  };
 
   Summary s;
   s.scene = scene.name;
   s.engine = scene.run.engine;
   s.precision = find_engine(scene.run.engine).precision;
   s.coupling = scene.run.coupling;
-  s.split = scene.run.split;
+  s.split = model.split().name;
   s.scheduler = scene.run.scheduler;
   s.balancer = "none";
   s.threads_per_rank = simulation.threads();

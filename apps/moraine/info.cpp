@@ -33,10 +33,10 @@ std::string features_text(const Scene& scene) {
 std::string limits_text(const Scene& scene) {
   const Limits limits = find_limits(scene.run.engine_profile);
   if (limits.elements == SIZE_MAX) return "none";
-  return fmt::format("{} shapes and {} contact pairs per sub-model, {} sub-models; {} touching spheres, {:.0f} % of them "
-                     "kept for ghosts",
-                     limits.elements, limits.contact_pairs, limits.worlds, limits.packed_spheres(),
-                     limits.ghost_reserve * 100);
+  return fmt::format(
+      "{} shapes and {} contact pairs per sub-model, {} sub-models; {} touching spheres, {:.0f} % of them "
+      "kept for ghosts",
+      limits.elements, limits.contact_pairs, limits.worlds, limits.packed_spheres(), limits.ghost_reserve * 100);
 }
 
 /// Sub-models never share a task, so whole tasks bound what stage-by-stage scheduling can use.
@@ -63,11 +63,12 @@ int info(const Scene& scene) {
   line("features", features_text(scene));
   line("engine", fmt::format("{}: {}", scene.run.engine, find_engine(scene.run.engine).help));
   line("engine limits", limits_text(scene));
-  line("sub-models", fmt::format("{} by {}, {} to {} elements each{}", model.size(), scene.run.split, smallest, largest,
-                                 scene.run.sub_models == 0 ? " (auto)" : ""));
-  line("ghosts", model.size() < 2 ? std::string("none: one sub-model")
-                                  : fmt::format("coupling {}; about {:.0f} % expected for compact sub-models of this size",
-                                                scene.run.coupling, 100 * expected_ghost_share(double(largest))));
+  line("sub-models", fmt::format("{} by {}, {} to {} elements each{}", model.size(), model.split().name, smallest,
+                                 largest, scene.run.sub_models == 0 ? " (auto)" : ""));
+  line("ghosts", model.size() < 2
+                     ? std::string("none: one sub-model")
+                     : fmt::format("coupling {}; about {:.0f} % expected for compact sub-models of this size",
+                                   scene.run.coupling, 100 * expected_ghost_share(double(largest))));
   line("time", fmt::format("{} steps of {:.6g} s in {} substep(s), {} iterations each", scene.time.steps, scene.time.dt,
                            scene.time.substeps, scene.run.iterations));
   line("scheduling", fmt::format("{}; {}", scene.run.scheduler, barrier_text(model.size(), threads)));

@@ -50,7 +50,10 @@ class Run {
 
  private:
   static runtime::Options options(const Scene& scene) {
-    return {.threads = scene.run.threads, .scheduler = scene.run.scheduler, .measured_cost = false, .check_messages = false};
+    return {.threads = scene.run.threads,
+            .scheduler = scene.run.scheduler,
+            .measured_cost = false,
+            .check_messages = false};
   }
 
   std::int64_t rounds() const { return scene_.time.steps * scene_.time.substeps; }

@@ -92,8 +92,8 @@ btScalar BondSolver::solveSingleIteration(int iteration, btCollisionObject** bod
     residual = std::max(residual, change * change);
   }
   return std::max(residual, btSequentialImpulseConstraintSolver::solveSingleIteration(
-                                iteration, bodies, body_count, manifolds, manifold_count, constraints,
-                                constraint_count, info, draw));
+                                iteration, bodies, body_count, manifolds, manifold_count, constraints, constraint_count,
+                                info, draw));
 }
 
 btScalar BondSolver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int count,

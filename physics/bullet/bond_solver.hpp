@@ -25,8 +25,8 @@ struct BondSpring {
 /// Each bond is one row along the line of centres. Its impulse over a step h is
 ///   J = h k (L - L0) + Q v',  Q = h (theta h k + c),
 /// with v' the stretching speed at the end of the step: theta = 0 (symplectic Euler, no numerical damping) while
-/// h sqrt(k/m*) <= 1/2, which is stable in a packed lattice, and theta = 1 (implicit Euler) above. Bonds longer than their
-/// break length are dropped before the step they would act in.
+/// h sqrt(k/m*) <= 1/2, which is stable in a packed lattice, and theta = 1 (implicit Euler) above. Bonds longer than
+/// their break length are dropped before the step they would act in.
 class BondSolver final : public btSequentialImpulseConstraintSolver {
  public:
   void add(const BondSpring& spring);

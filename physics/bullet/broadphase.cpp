@@ -190,7 +190,8 @@ void Broadphase::rebuild(btDispatcher* dispatcher) {
   carry_over_algorithms(dispatcher);
   listed_position_ = position_;
   listed_pose_.clear();
-  for (std::size_t b = elements_; b < bodies_.size(); ++b) listed_pose_.push_back(object(bodies_[b])->getWorldTransform());
+  for (std::size_t b = elements_; b < bodies_.size(); ++b)
+    listed_pose_.push_back(object(bodies_[b])->getWorldTransform());
   for (btBroadphaseProxy* p : removed_) delete p;
   removed_.clear();
   changed_ = false;
@@ -248,7 +249,8 @@ void Broadphase::carry_over_algorithms(btDispatcher* dispatcher) {
 }
 
 bool Broadphase::needsBroadphaseCollision(btBroadphaseProxy* p, btBroadphaseProxy* q) const {
-  return (p->m_collisionFilterGroup & q->m_collisionFilterMask) && (q->m_collisionFilterGroup & p->m_collisionFilterMask);
+  return (p->m_collisionFilterGroup & q->m_collisionFilterMask) &&
+         (q->m_collisionFilterGroup & p->m_collisionFilterMask);
 }
 
 void Broadphase::release(btBroadphasePair& pair, btDispatcher* dispatcher) {
@@ -301,7 +303,9 @@ void Broadphase::collect_manifolds(btAlignedObjectArray<btPersistentManifold*>& 
 
 btBroadphasePair* Broadphase::find(std::uint64_t key_a, std::uint64_t key_b) {
   const auto wanted = std::pair(key_a, key_b);
-  const auto less = [&](const Candidate& c, const auto& w) { return std::pair(key(bodies_[c.a]), key(bodies_[c.b])) < w; };
+  const auto less = [&](const Candidate& c, const auto& w) {
+    return std::pair(key(bodies_[c.a]), key(bodies_[c.b])) < w;
+  };
   const auto at = std::lower_bound(candidates_.begin(), candidates_.end(), wanted, less);
   if (at == candidates_.end() || std::pair(key(bodies_[at->a]), key(bodies_[at->b])) != wanted) return nullptr;
   return &pairs_[static_cast<int>(at - candidates_.begin())];

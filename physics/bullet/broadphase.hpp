@@ -15,9 +15,9 @@ namespace moraine::bullet {
 /// What the broad phase needs to know of a body; elements come before boundaries in every order.
 struct BodyTag {
   static constexpr std::uint64_t boundary_bit = std::uint64_t{1} << 32;
-  std::uint64_t key = 0;           ///< element id, or boundary_bit | boundary index: the canonical order
+  std::uint64_t key = 0;  ///< element id, or boundary_bit | boundary index: the canonical order
   std::uint32_t material = 0;
-  btScalar bounding_radius = 0;    ///< scaled; unused for boundaries
+  btScalar bounding_radius = 0;  ///< scaled; unused for boundaries
   bool spherical = false;
   bool is_boundary() const { return key & boundary_bit; }
 };
@@ -106,7 +106,7 @@ class Broadphase final : public btBroadphaseInterface, private btOverlappingPair
     cleanProxyFromPairs(proxy, dispatcher);
   }
 
-  std::vector<btBroadphaseProxy*> bodies_;  ///< ascending key
+  std::vector<btBroadphaseProxy*> bodies_;   ///< ascending key
   std::vector<btBroadphaseProxy*> removed_;  ///< freed at the next rebuild
   std::uint32_t elements_ = 0;               ///< bodies_ before the first boundary
   bool changed_ = true;
@@ -116,8 +116,8 @@ class Broadphase final : public btBroadphaseInterface, private btOverlappingPair
   CellGrid<btScalar> grid_;
   std::vector<std::uint32_t> near_;
   std::vector<Candidate> candidates_;
-  btBroadphasePairArray pairs_;              ///< one per candidate
-  std::vector<btBroadphasePair> touching_;   ///< those with contacts, while the list is made afresh
+  btBroadphasePairArray pairs_;             ///< one per candidate
+  std::vector<btBroadphasePair> touching_;  ///< those with contacts, while the list is made afresh
 };
 
 }  // namespace moraine::bullet

@@ -20,8 +20,9 @@ std::unique_ptr<World> make(const WorldSettings& settings, const Vec3& origin) {
 }  // namespace
 
 Engine engine() {
-  return {"bullet", "Bullet 3.24, float32: spheres, boxes, capsules, hulls, compounds; friction, bonds", "float32",
-          supports, relative_cost, make};
+  return {"bullet",      "Bullet 3.24, float32: spheres, boxes, capsules, hulls, compounds; friction, bonds",
+          "float32",     supports,
+          relative_cost, make};
 }
 
 }  // namespace moraine::bullet

@@ -47,24 +47,24 @@ void apply_world_settings(btDiscreteDynamicsWorld& world, const WorldSettings& s
   solver.m_splitImpulsePenetrationThreshold = split_impulse_threshold;
   solver.m_erp = overlap_recovery;
   solver.m_erp2 = overlap_recovery;
-  solver.m_sor = 1;                          // plain Gauss-Seidel
-  solver.m_globalCfm = 0;                    // hard contacts
-  solver.m_linearSlop = 0;                   // no tolerated overlap
-  solver.m_damping = 1;                      // of Bullet's own joints; none are used
+  solver.m_sor = 1;                            // plain Gauss-Seidel
+  solver.m_globalCfm = 0;                      // hard contacts
+  solver.m_linearSlop = 0;                     // no tolerated overlap
+  solver.m_damping = 1;                        // of Bullet's own joints; none are used
   solver.m_leastSquaresResidualThreshold = 0;  // never stop early: the cost and the result stay those asked for
   solver.m_minimumSolverBatchSize = 1 << 30;   // one batch: islands are not formed
 
   btDispatcherInfo& dispatch = world.getDispatchInfo();
-  dispatch.m_useContinuous = false;               // no swept tests; speed limits are guarded outside
+  dispatch.m_useContinuous = false;                  // no swept tests; speed limits are guarded outside
   dispatch.m_deterministicOverlappingPairs = false;  // the broad phase already yields pairs in id order
-  world.setForceUpdateAllAabbs(false);            // the broad phase reads positions itself
+  world.setForceUpdateAllAabbs(false);               // the broad phase reads positions itself
   const double g = settings.time_unit * settings.time_unit / settings.length_unit;
   world.setGravity(Units::raw(Vec3(settings.gravity * g)));
 }
 
 void apply_body_settings(btRigidBody& body, bool spherical) {
-  body.setDamping(0, 0);                              // no drag
-  body.setActivationState(DISABLE_DEACTIVATION);      // never sleep: sleeping depends on history and on islands
+  body.setDamping(0, 0);                          // no drag
+  body.setActivationState(DISABLE_DEACTIVATION);  // never sleep: sleeping depends on history and on islands
   body.setSleepingThresholds(0, 0);
   body.setRollingFriction(0);
   body.setSpinningFriction(0);

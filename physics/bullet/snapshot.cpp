@@ -83,9 +83,8 @@ bool one_manifold(const btCollisionObject* a, const btCollisionObject* b) {
 }  // namespace
 
 void BulletWorld::canonicalise() {
-  broadphase_.forget_contacts(&dispatcher_, [](const btCollisionObject* a, const btCollisionObject* b) {
-    return !one_manifold(a, b);
-  });
+  broadphase_.forget_contacts(
+      &dispatcher_, [](const btCollisionObject* a, const btCollisionObject* b) { return !one_manifold(a, b); });
 }
 
 void BulletWorld::save(std::vector<std::byte>& out) const {

@@ -34,9 +34,7 @@ class Units {
   Vec3 position(const btVector3& p) const { return origin_ + raw(p) * length; }
   btVector3 extent(const Vec3& e) const { return raw(Vec3(e / length)); }
 
-  btTransform pose(const Pose& p) const {
-    return btTransform(raw(p.orientation), position(p.position));
-  }
+  btTransform pose(const Pose& p) const { return btTransform(raw(p.orientation), position(p.position)); }
   Pose pose(const btTransform& t) const {
     const btQuaternion q = t.getRotation();
     return {position(t.getOrigin()), Quat(q.w(), q.x(), q.y(), q.z()).normalized()};

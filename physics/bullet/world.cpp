@@ -70,9 +70,10 @@ BulletWorld::~BulletWorld() {
 void BulletWorld::check_limits() const {
   const std::size_t count = bodies_ + boundaries_.size() + 1;
   if (count > settings_.limits.elements)
-    throw InputError(fmt::format("engine bullet: {} elements, ghosts and boundaries in one sub-model, the limit is {}; "
-                                 "use more sub-models",
-                                 count, settings_.limits.elements));
+    throw InputError(
+        fmt::format("engine bullet: {} elements, ghosts and boundaries in one sub-model, the limit is {}; "
+                    "use more sub-models",
+                    count, settings_.limits.elements));
 }
 
 Slot BulletWorld::free_slot() {
@@ -127,8 +128,9 @@ void BulletWorld::set_state(Slot slot, const ElementState& state) {
 
 ElementState BulletWorld::state(Slot slot) const {
   const btRigidBody& body = *entry(slot).body;
-  return {units_.pose(body.getWorldTransform()),
-          {Units::raw(body.getLinearVelocity()) * units_.velocity(), Units::raw(body.getAngularVelocity()) / units_.time}};
+  return {
+      units_.pose(body.getWorldTransform()),
+      {Units::raw(body.getLinearVelocity()) * units_.velocity(), Units::raw(body.getAngularVelocity()) / units_.time}};
 }
 
 void BulletWorld::motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const {

@@ -59,8 +59,7 @@ void read_run(const Node& root, RunSettings& run) {
   const auto node = root.find("run");
   if (!node) return;
   node->allow({"engine", "engine_profile", "sub_models", "split", "coupling", "coupling_leak", "skin",
-               "recut_ghost_share", "iterations", "scheduler", "balancer", "balance_every", "threads",
-               "checkpoint_every", "max_speed"});
+               "recut_ghost_share", "iterations", "scheduler", "threads", "max_speed"});
   run.engine = node->text("engine", run.engine);
   run.engine_profile = node->text("engine_profile", run.engine_profile);
   run.sub_models = read_sub_models(*node);
@@ -71,10 +70,7 @@ void read_run(const Node& root, RunSettings& run) {
   run.recut_ghost_share = node->not_negative("recut_ghost_share", run.recut_ghost_share);
   run.iterations = read_int(*node, "iterations", run.iterations, 1);
   run.scheduler = node->text("scheduler", run.scheduler);
-  run.balancer = node->text("balancer", run.balancer);
-  run.balance_every = read_int(*node, "balance_every", run.balance_every, 0);
   run.threads = read_int(*node, "threads", run.threads, 0);
-  run.checkpoint_every = read_int(*node, "checkpoint_every", run.checkpoint_every, 0);
   run.max_speed = node->not_negative("max_speed", run.max_speed);
 }
 

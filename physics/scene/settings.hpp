@@ -23,17 +23,14 @@ struct RunSettings {
   std::string engine = "bullet";
   std::string engine_profile = "default";  ///< declared limits: "default" or "physx" (the limits of PhysX scenes)
   int sub_models = 0;           ///< 0: auto, from measured engine cost and ghost share
-  std::string split = "rcb";
+  std::string split = "auto";
   std::string coupling = "consensus";
   double coupling_leak = 0.85;  ///< f, the part of the carried impulse that survives a substep; 0 .. 1
   double skin = 0.05;           ///< ghosts are made for gaps below this [element diameters]
   double recut_ghost_share = 0.5;  ///< re-cut when ghosts / elements exceeds this and 1.3 times the share after the last cut
   int iterations = 10;          ///< solver iterations per substep
   std::string scheduler = "hybrid";
-  std::string balancer = "none";
-  int balance_every = 0;        ///< steps; 0: never
   int threads = 0;              ///< 0: the cores this process may use
-  int checkpoint_every = 0;     ///< steps; 0: never
   double max_speed = 0;         ///< runaway limit [m/s]; 0: from the scene's energy
 };
 

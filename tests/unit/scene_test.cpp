@@ -133,7 +133,7 @@ TEST(Scene, SettingsAreTheDefaultsUnlessStated) {
   EXPECT_EQ(plain.output.formats, OutputSettings{}.formats);
   const Scene set = scene_of(minimal + R"(
 run: {sub_models: auto, split: slabs, coupling: none, coupling_leak: 0.5, skin: 0.1, recut_ghost_share: 0.4,
-      iterations: 7, scheduler: serial, balancer: greedy, balance_every: 5, threads: 2, checkpoint_every: 9, max_speed: 3,
+      iterations: 7, scheduler: serial, threads: 2, max_speed: 3,
       engine_profile: physx, engine: ode}
 output: {folder: here, quiet: true, every: 3, formats: [csv, vtkhdf], pictures: no, picture_width: 300}
 )");
@@ -141,8 +141,6 @@ output: {folder: here, quiet: true, every: 3, formats: [csv, vtkhdf], pictures: 
   EXPECT_EQ(set.run.split, "slabs");
   EXPECT_EQ(set.run.coupling_leak, 0.5);
   EXPECT_EQ(set.run.iterations, 7);
-  EXPECT_EQ(set.run.balance_every, 5);
-  EXPECT_EQ(set.run.checkpoint_every, 9);
   EXPECT_EQ(set.run.engine_profile, "physx");
   EXPECT_EQ(set.output.formats, (std::vector<std::string>{"csv", "vtkhdf"}));
   EXPECT_EQ(set.output.folder, "here");
