@@ -80,6 +80,7 @@ void SubModel::update_ledger(const runtime::Round& round) {
   }
   now.given = ledger_.given;
   now.exchanged = ledger_.exchanged;
+  now.exchanged_angular = ledger_.exchanged_angular;
   if (!members_.empty() && ledger_.mass > 0 && !round.opening()) {
     const Vec3 step = context_.scene->gravity * context_.world.substep;
     const Impulse gravity{now.mass * step, mass_moment_before_.cross(step)};
@@ -87,6 +88,7 @@ void SubModel::update_ledger(const runtime::Round& round) {
     now.given += gravity;
     now.given += walls;
     now.exchanged += gravity.linear.norm() + walls.linear.norm();
+    now.exchanged_angular += gravity.angular.norm() + walls.angular.norm();
   }
   ledger_ = now;
 }

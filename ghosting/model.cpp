@@ -203,6 +203,7 @@ void CoupledModel::take_over_accounts() {
   for (const auto& part : sub_models_) {
     closed_.ledger.given += part->ledger().given;
     closed_.ledger.exchanged += part->ledger().exchanged;
+    closed_.ledger.exchanged_angular += part->ledger().exchanged_angular;
     disagreement_closed_ += part->disagreement();
     disagreements_closed_ += part->disagreements();
     ghost_rounds_closed_ += part->ghost_rounds();
@@ -271,8 +272,8 @@ ModelStatistics CoupledModel::statistics() const {
   const Vec3 linear = s.ledger.momentum.linear - opening_ledger_.momentum.linear - s.ledger.given.linear;
   const Vec3 angular = s.ledger.momentum.angular - opening_ledger_.momentum.angular - s.ledger.given.angular;
   const auto relative = [](double x, double scale) { return scale > 0 ? x / scale : x; };
-  s.linear_residual = relative(linear.norm(), std::max(speed_sum_max_, s.ledger.speed_sum));
-  s.angular_residual = relative(angular.norm(), std::max(spin_scale_max_, s.ledger.spin_scale));
+  s.linear_residual = relative(linear.norm(), std::max({speed_sum_max_, s.ledger.speed_sum, s.ledger.exchanged}));
+  s.angular_residual = relative(angular.norm(), std::max({spin_scale_max_, s.ledger.spin_scale, s.ledger.exchanged_angular}));
   const double speed = context_.world.length_unit / context_.world.time_unit;
   s.coupling_residual = disagreements == 0 ? 0 : std::sqrt(disagreement / static_cast<double>(disagreements)) / speed;
   return s;

@@ -19,8 +19,8 @@ struct ModelStatistics {
   std::size_t ghosts_now = 0;
   std::size_t bonds_broken = 0;
   std::size_t recuts = 0;
-  double linear_residual = 0;    ///< unexplained momentum / largest sum of m|v| so far
-  double angular_residual = 0;   ///< unexplained angular momentum / largest sum of its parts so far
+  double linear_residual = 0;    ///< unexplained momentum / larger of the largest sum of m|v| and the impulse exchanged
+  double angular_residual = 0;   ///< the same for angular momentum about the world origin
   double coupling_residual = 0;  ///< rms speed by which copies disagreed / sqrt(g d)
   Ledger ledger;
 };

@@ -57,6 +57,7 @@ BulletWorld::BulletWorld(const WorldSettings& settings, const Vec3& origin)
       dispatcher_(configuration_.get()),
       dynamics_(&dispatcher_, &broadphase_, &solver_, configuration_.get()) {
   install_pair_laws();
+  dispatcher_.registerCollisionCreateFunc(SPHERE_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE, &sphere_contacts_);
   apply_world_settings(dynamics_, settings_);
   add_boundaries();
 }

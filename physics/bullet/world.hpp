@@ -8,6 +8,7 @@
 
 #include "physics/bullet/dynamics.hpp"
 #include "physics/bullet/shapes.hpp"
+#include "physics/bullet/sphere_contact.hpp"
 #include "physics/bullet/units.hpp"
 #include "physics/bytes.hpp"
 #include "physics/world.hpp"
@@ -75,6 +76,7 @@ class BulletWorld final : public World {
   Units units_;
   std::unique_ptr<btDefaultCollisionConfiguration> configuration_;
   btCollisionDispatcher dispatcher_;
+  SphereContact::Maker sphere_contacts_;
   mutable Broadphase broadphase_;
   BondSolver solver_;
   Dynamics dynamics_;

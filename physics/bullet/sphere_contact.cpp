@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/bullet/sphere_contact.hpp"
+
+#include <new>
+
+namespace moraine::bullet {
+namespace {
+
+// A contact is kept, with its impulses, up to this gap [sum of radii]; Bullet's own threshold for spheres.
+constexpr btScalar keep_gap = 0.01F;
+
+btScalar radius(const btCollisionObjectWrapper* o) {
+  return static_cast<const btSphereShape*>(o->getCollisionShape())->getRadius();
+}
+
+btManifoldPoint fresh_point(const btCollisionObject* a, const btCollisionObject* b) {
+  btManifoldPoint p;
+  p.m_combinedFriction = gCalculateCombinedFrictionCallback(a, b);
+  p.m_combinedRestitution = gCalculateCombinedRestitutionCallback(a, b);
+  p.m_combinedRollingFriction = 0;
+  p.m_combinedSpinningFriction = 0;
+  p.m_distance1 = 0;
+  return p;
+}
+
+/// Turns the cached friction directions with the normal, so that the kept impulses stay tangential.
+void turn_directions(btManifoldPoint& p, const btVector3& normal) {
+  if (!(p.m_contactPointFlags & BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED)) return;
+  btVector3 along = p.m_lateralFrictionDir1 - normal * normal.dot(p.m_lateralFrictionDir1);
+  const btScalar length2 = along.length2();
+  if (length2 < btScalar(0.25)) {  // the normal has swung over: begin anew
+    p.m_contactPointFlags &= ~BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
+    p.m_appliedImpulseLateral1 = p.m_appliedImpulseLateral2 = 0;
+    return;
+  }
+  p.m_lateralFrictionDir1 = along / btSqrt(length2);
+  p.m_lateralFrictionDir2 = normal.cross(p.m_lateralFrictionDir1);
+}
+
+}  // namespace
+
+SphereContact::SphereContact(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
+                             const btCollisionObjectWrapper* b)
+    : btCollisionAlgorithm(info),
+      manifold_(info.m_dispatcher1->getNewManifold(a->getCollisionObject(), b->getCollisionObject())) {}
+
+SphereContact::~SphereContact() { m_dispatcher->releaseManifold(manifold_); }
+
+void SphereContact::processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+                                     const btDispatcherInfo&, btManifoldResult*) {
+  const btVector3& xa = a->getWorldTransform().getOrigin();
+  const btVector3& xb = b->getWorldTransform().getOrigin();
+  const btScalar ra = radius(a), rb = radius(b);
+  const btVector3 apart = xa - xb;
+  const btScalar distance = apart.length();
+  const btScalar gap = distance - (ra + rb);
+  const bool known = manifold_->getNumContacts() > 0;
+  if (gap > (known ? keep_gap * (ra + rb) : btScalar(0))) {
+    manifold_->clearManifold();
+    return;
+  }
+  // Identical centres: any direction will do, as long as it is always the same.
+  const btVector3 normal = distance > SIMD_EPSILON ? apart / distance : btVector3(1, 0, 0);
+  if (!known) manifold_->addManifoldPoint(fresh_point(a->getCollisionObject(), b->getCollisionObject()));
+  btManifoldPoint& p = manifold_->getContactPoint(0);
+  turn_directions(p, normal);
+  p.m_normalWorldOnB = normal;
+  p.m_distance1 = gap;
+  p.m_positionWorldOnA = p.m_positionWorldOnB = xb + normal * (rb + gap / 2);
+}
+
+btCollisionAlgorithm* SphereContact::Maker::CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                                                     const btCollisionObjectWrapper* a,
+                                                                     const btCollisionObjectWrapper* b) {
+  void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(SphereContact));
+  return new (memory) SphereContact(info, a, b);
+}
+
+}  // namespace moraine::bullet
