@@ -2,6 +2,8 @@
 // The `elements` section: packings, lists and files.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "physics/errors.hpp"
 #include "physics/scene/draft.hpp"
 #include "physics/scene/packing.hpp"
@@ -41,29 +43,45 @@ std::uint64_t read_seed(const Node& node) { return static_cast<std::uint64_t>(no
 
 // --- hcp, cubic
 
-std::vector<Vec3> lattice_points(const Node& node, const Lattice& lattice) {
+Vec3 swapped_xy(const Vec3& v) { return {v.y(), v.x(), v.z()}; }
+
+/// Points of the lattice with its rows along x.
+std::vector<Vec3> lattice_points(const Node& node, const Lattice& lattice, bool swap) {
+  const auto turned = [swap](const Vec3& v) { return swap ? swapped_xy(v) : v; };
   const auto count = static_cast<std::size_t>(node.integer("count", most_elements, 0, most_elements));
   if (node.one_of({"box", "cells"}) == "box") {
     if (const auto at = node.find("at")) at->fail("'at' goes with 'cells', expected the place in 'box'");
-    return pack_lattice(lattice, node.at("box").box(), count);
+    const Bounds box = node.at("box").box();
+    return pack_lattice(lattice, Bounds{turned(box.min), turned(box.max)}, count);
   }
   std::array<std::int64_t, 3> cells{};
   const std::vector<Node> numbers = node.at("cells").items("three numbers of spheres [x, y, z]", 3);
   for (std::size_t a = 0; a < 3; ++a) cells[a] = numbers[a].integer(1, most_elements);
-  return pack_lattice(lattice, cells, node.vector("at", Vec3::Zero()), count);
+  if (swap) std::swap(cells[0], cells[1]);
+  return pack_lattice(lattice, cells, turned(node.vector("at", Vec3::Zero())), count);
+}
+
+bool read_rows_along_y(const Node& node) {
+  const auto rows = node.find("rows");
+  if (!rows) return false;
+  const std::string axis = rows->text();
+  if (axis != "x" && axis != "y") rows->fail(fmt::format("unknown axis '{}', expected x or y", axis));
+  return axis == "y";
 }
 
 void read_lattice(const Entry& entry, Lattice::Kind kind) {
   const Node& node = entry.node;
   node.allow({"packing", "shape", "material", "mass", "id_start", "velocity", "angular_velocity", "box", "cells", "at",
-              "count", "spacing", "jitter", "seed"});
+              "count", "spacing", "jitter", "seed", "rows"});
   const Node shape_node = node.at("shape", "the shape of the spheres");
   const std::uint32_t shape = read_shape(shape_node, entry.draft).index;
   const Sphere* sphere = entry.draft.scene.shapes[shape].sphere();
   if (!sphere) shape_node.fail("a lattice packs spheres only, expected {sphere: radius}");
   const Lattice lattice{kind, 2 * sphere->radius, node.positive("spacing", 1)};
 
-  std::vector<Vec3> points = lattice_points(node, lattice);
+  const bool swap = read_rows_along_y(node);
+  std::vector<Vec3> points = lattice_points(node, lattice, swap);
+  if (swap) std::transform(points.begin(), points.end(), points.begin(), swapped_xy);
   const std::int64_t count = node.integer("count", static_cast<std::int64_t>(points.size()), 0);
   if (points.size() < static_cast<std::size_t>(count)) {
     node.at("count").fail(fmt::format("only {} spheres fit, expected room for {}", points.size(), count));
