@@ -134,11 +134,15 @@ void SubModel::set_neighbours(std::span<const Neighbour> neighbours) {
   }
   for (HostLink& gone : old_hosts)
     for (const Ghost& g : gone.ghosts) world_->remove(g.slot);
+  list_partners();
+  update_shared();
+}
+
+void SubModel::list_partners() {
   owners_.clear();
   hosts_.clear();
   for (const HostLink& l : host_links_) owners_.push_back(l.owner);
   for (const OwnerLink& l : owner_links_) hosts_.push_back(l.host);
-  update_shared();
 }
 
 }  // namespace moraine

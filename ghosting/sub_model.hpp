@@ -139,6 +139,10 @@ class SubModel final : public runtime::SubModel {
   void unshare(const SharedElement& shared);
   void send_ghosts(const OwnerLink& link, runtime::Port& port);
 
+  void list_partners();
+  template <class Io, class Self>
+  static void fields(Io& s, Self& self);
+
   std::size_t member_index(std::uint32_t element) const;
   const SharedElement* find_shared(std::uint32_t element) const;
 

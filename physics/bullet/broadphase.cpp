@@ -96,10 +96,9 @@ btBroadphaseProxy* Broadphase::createProxy(const btVector3& low, const btVector3
   return bodies_.back();
 }
 
-void Broadphase::destroyProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) {
-  cleanProxyFromPairs(proxy, dispatcher);
-  std::erase(bodies_, proxy);
-  removed_.push_back(proxy);
+/// The proxy stays until the next listing, marked by having no object; its pairs are released then.
+void Broadphase::destroyProxy(btBroadphaseProxy* proxy, btDispatcher*) {
+  proxy->m_clientObject = nullptr;
   changed_ = true;
 }
 
@@ -115,12 +114,13 @@ void Broadphase::getAabb(btBroadphaseProxy* proxy, btVector3& low, btVector3& hi
 
 void Broadphase::rayTest(const btVector3&, const btVector3&, btBroadphaseRayCallback& callback, const btVector3&,
                          const btVector3&) {
-  for (const btBroadphaseProxy* p : bodies_) callback.process(p);
+  for (const btBroadphaseProxy* p : bodies_)
+    if (object(p)) callback.process(p);
 }
 
 void Broadphase::aabbTest(const btVector3& low, const btVector3& high, btBroadphaseAabbCallback& callback) {
   for (const btBroadphaseProxy* p : bodies_)
-    if (TestAabbAgainstAabb2(low, high, p->m_aabbMin, p->m_aabbMax)) callback.process(p);
+    if (object(p) && TestAabbAgainstAabb2(low, high, p->m_aabbMin, p->m_aabbMax)) callback.process(p);
 }
 
 void Broadphase::getBroadphaseAabb(btVector3& low, btVector3& high) const {
@@ -140,6 +140,9 @@ void Broadphase::list_now(btDispatcher* dispatcher) {
 }
 
 void Broadphase::sort_bodies() {
+  const auto dead = std::partition(bodies_.begin(), bodies_.end(), [](auto* p) { return object(p) != nullptr; });
+  removed_.insert(removed_.end(), dead, bodies_.end());
+  bodies_.erase(dead, bodies_.end());
   std::sort(bodies_.begin(), bodies_.end(), [](auto* p, auto* q) { return key(p) < key(q); });
   elements_ = 0;
   largest_radius_ = 0;
@@ -184,6 +187,8 @@ bool Broadphase::list_is_stale() const {
 
 void Broadphase::rebuild(btDispatcher* dispatcher) {
   touching_.clear();
+  for (int i = 0; i < pairs_.size(); ++i)
+    if (!alive(pairs_[i])) release(pairs_[i], dispatcher);
   each_contact_pair([&](const btBroadphasePair& pair) { touching_.push_back(pair); });
   candidates_.clear();
   list_element_pairs();
@@ -260,9 +265,8 @@ void Broadphase::release(btBroadphasePair& pair, btDispatcher* dispatcher) {
   pair.m_algorithm = nullptr;
 }
 
-void Broadphase::cleanProxyFromPairs(btBroadphaseProxy* proxy, btDispatcher* dispatcher) {
-  for (int i = 0; i < pairs_.size(); ++i)
-    if (pairs_[i].m_pProxy0 == proxy || pairs_[i].m_pProxy1 == proxy) release(pairs_[i], dispatcher);
+void Broadphase::release_all(btDispatcher* dispatcher) {
+  for (int i = 0; i < pairs_.size(); ++i) release(pairs_[i], dispatcher);
 }
 
 bool Broadphase::touches(const Candidate& c, const btBroadphasePair& pair) const {

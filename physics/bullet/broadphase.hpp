@@ -36,19 +36,23 @@ class Broadphase final : public btBroadphaseInterface, private btOverlappingPair
   template <class Which>
   void forget_contacts(btDispatcher* dispatcher, Which which) {
     for (int i = 0; i < pairs_.size(); ++i)
-      if (which(object(pairs_[i].m_pProxy0), object(pairs_[i].m_pProxy1))) release(pairs_[i], dispatcher);
+      if (alive(pairs_[i]) && which(object(pairs_[i].m_pProxy0), object(pairs_[i].m_pProxy1)))
+        release(pairs_[i], dispatcher);
   }
+  /// Drops all contacts.
+  void release_all(btDispatcher* dispatcher);
   /// Visits every pair that holds contacts, in pair order: visit(pair).
   template <class Visit>
   void each_contact_pair(Visit visit) {
     for (int i = 0; i < pairs_.size(); ++i)
-      if (pairs_[i].m_algorithm) visit(pairs_[i]);
+      if (pairs_[i].m_algorithm && alive(pairs_[i])) visit(pairs_[i]);
   }
   /// Lists the candidates afresh, so that pairs exist for contacts about to be restored.
   void list_now(btDispatcher* dispatcher);
   /// The candidate pair of two keys, or null.
   btBroadphasePair* find(std::uint64_t key_a, std::uint64_t key_b);
 
+  /// Null once the body has left the world.
   static btCollisionObject* object(const btBroadphaseProxy* proxy) {
     return static_cast<btCollisionObject*>(proxy->m_clientObject);
   }
@@ -73,6 +77,7 @@ class Broadphase final : public btBroadphaseInterface, private btOverlappingPair
     std::uint32_t a, b;  ///< places in bodies_; a < b
   };
 
+  static bool alive(const btBroadphasePair& pair) { return object(pair.m_pProxy0) && object(pair.m_pProxy1); }
   void sort_bodies();
   void read_positions();
   bool list_is_stale() const;
@@ -93,7 +98,7 @@ class Broadphase final : public btBroadphaseInterface, private btOverlappingPair
   int getNumOverlappingPairs() const override { return pairs_.size(); }
   bool needsBroadphaseCollision(btBroadphaseProxy* p, btBroadphaseProxy* q) const override;
   btOverlapFilterCallback* getOverlapFilterCallback() override { return nullptr; }
-  void cleanProxyFromPairs(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
+  void cleanProxyFromPairs(btBroadphaseProxy*, btDispatcher*) override {}  // done for all at the next listing
   void setOverlapFilterCallback(btOverlapFilterCallback*) override {}
   void processAllOverlappingPairs(btOverlapCallback* callback, btDispatcher* dispatcher) override;
   btBroadphasePair* findPair(btBroadphaseProxy*, btBroadphaseProxy*) override;
@@ -102,9 +107,7 @@ class Broadphase final : public btBroadphaseInterface, private btOverlappingPair
   void sortOverlappingPairs(btDispatcher*) override {}
   btBroadphasePair* addOverlappingPair(btBroadphaseProxy*, btBroadphaseProxy*) override { return nullptr; }
   void* removeOverlappingPair(btBroadphaseProxy*, btBroadphaseProxy*, btDispatcher*) override { return nullptr; }
-  void removeOverlappingPairsContainingProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override {
-    cleanProxyFromPairs(proxy, dispatcher);
-  }
+  void removeOverlappingPairsContainingProxy(btBroadphaseProxy*, btDispatcher*) override {}
 
   std::vector<btBroadphaseProxy*> bodies_;   ///< ascending key
   std::vector<btBroadphaseProxy*> removed_;  ///< freed at the next rebuild

@@ -62,11 +62,7 @@ BulletWorld::BulletWorld(const WorldSettings& settings, const Vec3& origin)
   add_boundaries();
 }
 
-BulletWorld::~BulletWorld() {
-  for (auto* list : {&entries_, &boundaries_})
-    for (auto& e : *list)
-      if (e && e->body) dynamics_.removeRigidBody(e->body.get());
-}
+BulletWorld::~BulletWorld() { broadphase_.release_all(&dispatcher_); }
 
 void BulletWorld::check_limits() const {
   const std::size_t count = bodies_ + boundaries_.size() + 1;
@@ -176,6 +172,7 @@ void BulletWorld::add_bond(std::uint32_t bond, Slot a, Slot b) {
 void BulletWorld::use_pair_laws() const { active_materials = &settings_.scene->materials; }
 
 void BulletWorld::clear() {
+  broadphase_.release_all(&dispatcher_);
   for (auto& e : entries_)
     if (e->body) dynamics_.removeRigidBody(e->body.get());
   entries_.clear();

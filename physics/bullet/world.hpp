@@ -74,6 +74,13 @@ class BulletWorld final : public World {
 
   WorldSettings settings_;
   Units units_;
+  // Bullet points at these, so they outlive what follows.
+  std::unordered_map<std::uint32_t, OwnedShape> shapes_;
+  std::vector<std::unique_ptr<Entry>> entries_;  ///< by slot; addresses are stable, Bullet points at the tags
+  std::vector<Slot> free_slots_;
+  std::vector<OwnedShape> boundary_shapes_;
+  std::vector<std::unique_ptr<Entry>> boundaries_;
+
   std::unique_ptr<btDefaultCollisionConfiguration> configuration_;
   btCollisionDispatcher dispatcher_;
   SphereContact::Maker sphere_contacts_;
@@ -81,11 +88,6 @@ class BulletWorld final : public World {
   BondSolver solver_;
   Dynamics dynamics_;
 
-  std::unordered_map<std::uint32_t, OwnedShape> shapes_;
-  std::vector<std::unique_ptr<Entry>> entries_;  ///< by slot; addresses are stable, Bullet points at the tags
-  std::vector<Slot> free_slots_;
-  std::vector<OwnedShape> boundary_shapes_;
-  std::vector<std::unique_ptr<Entry>> boundaries_;
   Impulse boundary_impulse_;
   std::size_t bodies_ = 0;
 };
