@@ -5,13 +5,20 @@
 #include <cmath>
 
 namespace moraine {
+namespace {
+
+// Sub-models that are mostly surface couple their elements badly, however cheap they are.
+constexpr double most_ghosts = 1.0 / 3;
+
+}  // namespace
 
 double expected_ghost_share(double elements) { return 3.0 / std::cbrt(std::max(elements, 1.0)); }
 
 double cheapest_size(const Engine& engine) {
-  double best = 500, least = HUGE_VAL;
-  for (double n = 500; n <= 200'000; n *= 1.05) {
+  double best = 0, least = HUGE_VAL;
+  for (double n = 1; n <= 200'000; n *= 1.05) {
     const double share = expected_ghost_share(n);
+    if (share > most_ghosts) continue;
     const double cost = engine.relative_cost(n * (1 + share)) * (1 + share);
     if (cost < least) {
       least = cost;

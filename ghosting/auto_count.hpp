@@ -11,7 +11,8 @@ namespace moraine {
 /// block of n spheres has n^(2/3) of them. Compared with measured shares in docs/accuracy.md.
 double expected_ghost_share(double elements);
 
-/// Elements per sub-model at which measured engine cost times (1 + ghost share) is least.
+/// Elements per sub-model at which measured engine cost times (1 + ghost share) is least, among those with at most a
+/// third of ghosts.
 double cheapest_size(const Engine& engine);
 
 /// Sub-models for a scene of `elements`: its size over the cheapest one, more if the engine's limits ask for it.

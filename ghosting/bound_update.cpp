@@ -28,7 +28,7 @@ void SubModel::update_bounds() {
   bounds_ = {};
   double speed2 = 0;
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    bounds_.add(motions_[i].position, context_.radius(members_[i]));
+    bounds_.add(motions_[i].position, radius_[i]);
     speed2 = std::max(speed2, motions_[i].twist.linear.squaredNorm());
   }
   max_speed_ = std::sqrt(speed2);
@@ -60,7 +60,7 @@ void SubModel::find_touching(const OwnerLink& link, std::vector<std::uint32_t>& 
   grid_.build(points_, largest + largest_radius_ + drop_factor * context_.skin);
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const Vec3& x = motions_[i].position;
-    const double radius = context_.radius(members_[i]);
+    const double radius = radius_[i];
     if (box.distance(x) > radius + drop_factor * context_.skin) continue;
     const bool hosted = std::binary_search(link.hosted.begin(), link.hosted.end(), members_[i]);
     const double reach = radius + context_.skin * (hosted ? drop_factor : 1.0);
@@ -92,7 +92,8 @@ void SubModel::update_shared() {
       shared = std::move(*old++);
     } else {
       shared.element = element;
-      shared.state = world_->state(slots_[member_index(element)]);
+      shared.member = static_cast<std::uint32_t>(member_index(element));
+      shared.state = world_->state(slots_[shared.member]);
       shared.copies = {{id_, {}}};
     }
     std::vector<SubModelId> worlds{id_};
@@ -101,24 +102,24 @@ void SubModel::update_shared() {
     const bool same = std::equal(worlds.begin(), worlds.end(), shared.copies.begin(), shared.copies.end(),
                                  [](SubModelId w, const Copy& c) { return w == c.world; });
     if (!same) context_.coupling->change_copies(shared, worlds, id_);
-    shared_index_[member_index(element)] = static_cast<std::int32_t>(shared_.size());
+    shared_index_[shared.member] = static_cast<std::int32_t>(shared_.size());
     shared_.push_back(std::move(shared));
   }
   for (; old != before.end(); ++old) unshare(*old);
 }
 
 void SubModel::start_shared(SharedElement& shared) {
-  const Slot slot = slots_[member_index(shared.element)];
+  const Slot slot = slots_[shared.member];
   const auto own = std::find_if(shared.copies.begin(), shared.copies.end(), [&](auto& c) { return c.world == id_; });
-  world_->set_mass(slot, context_.element_mass(shared.element) * context_.coupling->mass_share(shared.copies.size()));
+  world_->set_mass(slot, mass_[shared.member] * context_.coupling->mass_share(shared.copies.size()));
   world_->set_state(slot, {shared.state.pose, sum(shared.state.twist, own->offset)});
-  shared.start = world_->state(slot);
+  shared.start = {{world_->position(slot), shared.state.pose.orientation}, shared.state.twist};
 }
 
 /// The last ghost is gone: what all copies carried sums to nothing, so the element just goes on.
 void SubModel::unshare(const SharedElement& shared) {
-  const Slot slot = slots_[member_index(shared.element)];
-  world_->set_mass(slot, context_.element_mass(shared.element));
+  const Slot slot = slots_[shared.member];
+  world_->set_mass(slot, mass_[shared.member]);
   world_->set_state(slot, shared.state);
 }
 

@@ -27,6 +27,7 @@ struct CopyMotion {
 /// An element with ghosts, as its owner knows it.
 struct SharedElement {
   std::uint32_t element = 0;  ///< index into Scene::elements
+  std::uint32_t member = 0;   ///< place among its owner's elements
   ElementState state;         ///< the one canonical state
   std::vector<Copy> copies;   ///< ascending world; includes the real one
   ElementState start;         ///< of the real copy, as its world holds it in this substep

@@ -30,7 +30,7 @@ void SubModel::forget_bonds(std::span<const std::uint32_t> broken) {
 }
 
 CopyMotion SubModel::own_motion(const SharedElement& shared) const {
-  const ElementState end = world_->state(slots_[member_index(shared.element)]);
+  const ElementState end = world_->state(slots_[shared.member]);
   return {end.pose.position - shared.start.pose.position,
           rotation_between(shared.start.pose.orientation, end.pose.orientation), end.twist};
 }
@@ -54,29 +54,29 @@ void SubModel::combine(SharedElement& shared) {
                                 context_.scene->run.coupling_leak};
   disagreement_ += context_.coupling->combine(shared, copy_motions_, context);
   disagreements_ += shared.copies.size();
-  motions_[member_index(shared.element)] = {shared.state.pose.position, shared.state.twist};
+  motions_[shared.member] = {shared.state.pose.position, shared.state.twist};
 }
 
 /// Angular momentum of spheres is I w; of other shapes the body-frame inertia is turned into the world frame.
+Vec3 SubModel::spin(std::size_t member) const {
+  const Shape& shape = context_.scene->shape_of(context_.scene->elements[members_[member]]);
+  const Vec3& w = motions_[member].twist.angular;
+  if (shape.sphere()) return mass_[member] * shape.inertia_per_mass.x() * w;
+  const Quat q = state(member).pose.orientation;
+  return q * Vec3(mass_[member] * shape.inertia_per_mass.cwiseProduct(q.conjugate() * w));
+}
+
 void SubModel::update_ledger(const runtime::Round& round) {
   Ledger now;
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    const Element& e = context_.scene->elements[members_[i]];
-    const Shape& shape = context_.scene->shapes[e.shape];
     const BodyMotion& m = motions_[i];
-    const Vec3 p = e.mass * m.twist.linear;
-    Vec3 spin = e.mass * shape.inertia_per_mass.x() * m.twist.angular;
-    if (!shape.sphere()) {
-      const Quat q = state(i).pose.orientation;
-      spin = q * Vec3(e.mass * shape.inertia_per_mass.cwiseProduct(q.conjugate() * m.twist.angular));
-    }
-    const Vec3 orbit = m.position.cross(p);
-    now.momentum += {p, orbit + spin};
-    now.kinetic_energy += 0.5 * (p.dot(m.twist.linear) + spin.dot(m.twist.angular));
+    const Vec3 p = mass_[i] * m.twist.linear, orbit = m.position.cross(p), turn = spin(i);
+    now.momentum += {p, orbit + turn};
+    now.kinetic_energy += 0.5 * (p.dot(m.twist.linear) + turn.dot(m.twist.angular));
     now.speed_sum += p.norm();
-    now.spin_scale += orbit.norm() + spin.norm();
-    now.mass_moment += e.mass * m.position;
-    now.mass += e.mass;
+    now.spin_scale += orbit.norm() + turn.norm();
+    now.mass_moment += mass_[i] * m.position;
+    now.mass += mass_[i];
   }
   now.given = ledger_.given;
   now.exchanged = ledger_.exchanged;

@@ -17,6 +17,7 @@ void SubModel::ghost_build(const runtime::Round& round, runtime::Port& port) {
     hold_bonds(link);
   }
   ghost_rounds_ += ghost_count();
+  ++rounds_;
 }
 
 /// Both lists ascend by element: one pass keeps, makes and drops.
@@ -43,7 +44,7 @@ void SubModel::place_ghost(Ghost& ghost, const GhostOrder& order, bool fresh) {
     world_->set_mass(ghost.slot, mass);
     world_->set_state(ghost.slot, order.start);
   }
-  ghost.start = world_->state(ghost.slot);
+  ghost.start = {{world_->position(ghost.slot), order.start.pose.orientation}, order.start.twist};
 }
 
 void SubModel::drop_ghost(HostLink& link, const Ghost& ghost) {

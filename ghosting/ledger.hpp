@@ -10,8 +10,8 @@ namespace moraine {
 struct Ledger {
   Impulse momentum;                 ///< now [kg m/s, kg m^2/s]
   Impulse given;                    ///< by gravity and boundaries since the start
-  double exchanged = 0;          ///< sum of the magnitudes of what was given, linear [N s]
-  double exchanged_angular = 0;  ///< the same, angular [N m s]
+  double exchanged = 0;             ///< sum of the magnitudes of what was given, linear [N s]
+  double exchanged_angular = 0;     ///< the same, angular [N m s]
   double kinetic_energy = 0;        ///< now [J]
   double speed_sum = 0;             ///< sum of m |v| now
   double spin_scale = 0;            ///< sum of |m x cross v| + |I w| now

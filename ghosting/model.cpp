@@ -200,6 +200,7 @@ void CoupledModel::note_extremes() {
 
 /// Sub-models about to be replaced leave what they counted.
 void CoupledModel::take_over_accounts() {
+  rounds_closed_ += sub_models_.front()->rounds();
   for (const auto& part : sub_models_) {
     closed_.ledger.given += part->ledger().given;
     closed_.ledger.exchanged += part->ledger().exchanged;
@@ -261,19 +262,21 @@ ModelStatistics CoupledModel::statistics() const {
   s.ghosts_now = ghosts_now();
   s.ghosts_max = std::max(ghosts_max_, s.ghosts_now);
   double disagreement = disagreement_closed_;
-  std::uint64_t disagreements = disagreements_closed_, ghost_rounds = ghost_rounds_closed_;
+  std::uint64_t disagreements = disagreements_closed_, ghost_rounds = ghost_rounds_closed_, rounds = rounds_closed_;
+  if (!sub_models_.empty()) rounds += sub_models_.front()->rounds();
   for (const auto& part : sub_models_) {
     s.ledger += part->ledger();
     disagreement += part->disagreement();
     disagreements += part->disagreements();
     ghost_rounds += part->ghost_rounds();
   }
-  s.ghosts_mean = static_cast<double>(ghost_rounds) / static_cast<double>(std::max<std::int64_t>(1, rounds_done_));
+  s.ghosts_mean = static_cast<double>(ghost_rounds) / static_cast<double>(std::max<std::uint64_t>(1, rounds));
   const Vec3 linear = s.ledger.momentum.linear - opening_ledger_.momentum.linear - s.ledger.given.linear;
   const Vec3 angular = s.ledger.momentum.angular - opening_ledger_.momentum.angular - s.ledger.given.angular;
   const auto relative = [](double x, double scale) { return scale > 0 ? x / scale : x; };
   s.linear_residual = relative(linear.norm(), std::max({speed_sum_max_, s.ledger.speed_sum, s.ledger.exchanged}));
-  s.angular_residual = relative(angular.norm(), std::max({spin_scale_max_, s.ledger.spin_scale, s.ledger.exchanged_angular}));
+  s.angular_residual =
+      relative(angular.norm(), std::max({spin_scale_max_, s.ledger.spin_scale, s.ledger.exchanged_angular}));
   const double speed = context_.world.length_unit / context_.world.time_unit;
   s.coupling_residual = disagreements == 0 ? 0 : std::sqrt(disagreement / static_cast<double>(disagreements)) / speed;
   return s;

@@ -77,7 +77,7 @@ class CoupledModel final : public runtime::Model {
   ModelStatistics closed_;
   Ledger opening_ledger_;
   double disagreement_closed_ = 0;
-  std::uint64_t disagreements_closed_ = 0, ghost_rounds_closed_ = 0;
+  std::uint64_t disagreements_closed_ = 0, ghost_rounds_closed_ = 0, rounds_closed_ = 0;
   std::vector<std::uint32_t> broken_;  ///< ascending
   std::size_t ghosts_max_ = 0;
   double speed_sum_max_ = 0, spin_scale_max_ = 0;

@@ -69,9 +69,8 @@ void SubModel::report(const HostLink& link, bool opening, StepMessage& message) 
   // The owner's bounds are a substep old: its elements have moved at most this far since.
   const double reach = 1.5 * context_.skin + 2 * link.max_speed * context_.world.substep;
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    const double radius = context_.radius(members_[i]);
-    if (link.bounds.distance(motions_[i].position) <= radius + reach)
-      message.border.push_back({motions_[i].position, radius});
+    if (link.bounds.distance(motions_[i].position) <= radius_[i] + reach)
+      message.border.push_back({motions_[i].position, radius_[i]});
   }
 }
 

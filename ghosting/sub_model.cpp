@@ -41,7 +41,9 @@ SubModel::SubModel(const ModelContext& context, SubModelId id, std::vector<std::
       world_(context.engine->make(context.world, middle(states))) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     slots_.push_back(world_->add(body(context_, members_[i], states[i])));
-    largest_radius_ = std::max(largest_radius_, context_.radius(members_[i]));
+    radius_.push_back(context_.radius(members_[i]));
+    mass_.push_back(context_.element_mass(members_[i]));
+    largest_radius_ = std::max(largest_radius_, radius_[i]);
   }
   for (const std::uint32_t b : inner_bonds) {
     const auto [first, second] = context_.bond_ends[b];

@@ -105,8 +105,9 @@ class SubModel final : public runtime::SubModel {
   /// Sum and count of squared disagreements of copies since the start, for the coupling residual.
   double disagreement() const { return disagreement_; }
   std::uint64_t disagreements() const { return disagreements_; }
-  /// Sum over rounds of the number of ghosts here.
+  /// Sum over rounds of the number of ghosts here, and how many rounds that were.
   std::uint64_t ghost_rounds() const { return ghost_rounds_; }
+  std::uint64_t rounds() const { return rounds_; }
 
  private:
   void ghost_build(const runtime::Round& round, runtime::Port& port);
@@ -128,6 +129,7 @@ class SubModel final : public runtime::SubModel {
   void forget_bonds(std::span<const std::uint32_t> broken);
   CopyMotion own_motion(const SharedElement& shared) const;
   void combine(SharedElement& shared);
+  Vec3 spin(std::size_t member) const;
   void update_ledger(const runtime::Round& round);
 
   void bound_update(const runtime::Round& round, runtime::Port& port);
@@ -150,6 +152,7 @@ class SubModel final : public runtime::SubModel {
   SubModelId id_;
   std::vector<std::uint32_t> members_;
   std::vector<Slot> slots_;
+  std::vector<double> radius_, mass_;       ///< by member: bounding radius [m], full mass [kg]
   std::vector<std::int32_t> shared_index_;  ///< by member; -1: not shared
   std::unique_ptr<World> world_;
 
@@ -168,7 +171,7 @@ class SubModel final : public runtime::SubModel {
   Vec3 mass_moment_before_ = Vec3::Zero();
   double disagreement_ = 0;
   std::uint64_t disagreements_ = 0;
-  std::uint64_t ghost_rounds_ = 0;
+  std::uint64_t ghost_rounds_ = 0, rounds_ = 0;
 
   // Buffers, reused
   std::vector<std::byte> bytes_;

@@ -54,7 +54,7 @@ void io(Io& s, T& x) {
   } else if constexpr (std::is_same_v<U, Copy>) {
     all(s, x.world, x.offset);
   } else if constexpr (std::is_same_v<U, SharedElement>) {
-    all(s, x.element, x.state, x.copies, x.start);
+    all(s, x.element, x.member, x.state, x.copies, x.start);
   } else if constexpr (std::is_same_v<U, CrossBond>) {
     all(s, x.bond, x.own, x.other);
   } else if constexpr (std::is_same_v<U, Ghost>) {
@@ -82,7 +82,7 @@ template <class Io, class Self>
 void SubModel::fields(Io& s, Self& self) {
   all(s, self.members_, self.slots_, self.shared_index_, self.host_links_, self.owner_links_, self.shared_,
       self.broken_, self.bounds_, self.max_speed_, self.largest_radius_, self.ledger_, self.disagreement_,
-      self.disagreements_, self.ghost_rounds_);
+      self.disagreements_, self.ghost_rounds_, self.rounds_, self.radius_, self.mass_);
 }
 
 void SubModel::save(std::vector<std::byte>& out) const {
@@ -101,7 +101,7 @@ void SubModel::load(std::span<const std::byte> in) {
   fields(r, *this);
   list_partners();
   read_motions();
-  for (const SharedElement& s : shared_) motions_[member_index(s.element)] = {s.state.pose.position, s.state.twist};
+  for (const SharedElement& s : shared_) motions_[s.member] = {s.state.pose.position, s.state.twist};
 }
 
 }  // namespace moraine

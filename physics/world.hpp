@@ -96,6 +96,7 @@ class World {
   virtual void remove(Slot slot) = 0;
   virtual void set_state(Slot slot, const ElementState& state) = 0;
   virtual ElementState state(Slot slot) const = 0;
+  virtual Vec3 position(Slot slot) const = 0;
   /// Motions of many bodies at once, in the order asked for.
   virtual void motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const = 0;
   /// Changes the copy's share of the element's mass; inertia follows in proportion.

@@ -11,7 +11,7 @@ namespace {
 bool supports(const Geometry&) { return true; }
 
 /// Shape of the measured curve of cost per element-step against elements per world; see docs/accuracy.md.
-double relative_cost(double bodies) { return 1 + 0.27 * std::log10(std::max(bodies, 500.0) / 500); }
+double relative_cost(double bodies) { return 1 + 0.42 * std::log10(std::max(bodies, 500.0) / 500); }
 
 std::unique_ptr<World> make(const WorldSettings& settings, const Vec3& origin) {
   return std::make_unique<BulletWorld>(settings, origin);

@@ -118,7 +118,10 @@ void BulletWorld::remove(Slot slot) {
 
 void BulletWorld::set_state(Slot slot, const ElementState& state) {
   btRigidBody& body = *entry(slot).body;
-  body.setCenterOfMassTransform(units_.pose(state.pose));
+  if (entry(slot).tag.spherical)
+    body.setWorldTransform(units_.pose(state.pose));  // a sphere's inertia does not turn
+  else
+    body.setCenterOfMassTransform(units_.pose(state.pose));
   body.setLinearVelocity(Units::raw(Vec3(state.twist.linear / units_.velocity())));
   body.setAngularVelocity(Units::raw(Vec3(state.twist.angular * units_.time)));
 }
@@ -128,6 +131,10 @@ ElementState BulletWorld::state(Slot slot) const {
   return {
       units_.pose(body.getWorldTransform()),
       {Units::raw(body.getLinearVelocity()) * units_.velocity(), Units::raw(body.getAngularVelocity()) / units_.time}};
+}
+
+Vec3 BulletWorld::position(Slot slot) const {
+  return units_.position(entry(slot).body->getWorldTransform().getOrigin());
 }
 
 void BulletWorld::motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const {

@@ -24,6 +24,7 @@ class BulletWorld final : public World {
   void remove(Slot slot) override;
   void set_state(Slot slot, const ElementState& state) override;
   ElementState state(Slot slot) const override;
+  Vec3 position(Slot slot) const override;
   void motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const override;
   void set_mass(Slot slot, double mass) override;
   void apply_impulse(Slot slot, const Impulse& impulse) override;
