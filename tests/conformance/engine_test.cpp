@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every engine in the table must do: the contract of World.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "tests/support/model_run.hpp"
+#include "tests/support/single_world.hpp"
+
+namespace moraine {
+namespace {
+
+using test::same_bits;
+using test::set;
+using test::SingleWorld;
+
+std::vector<std::string> engine_names() {
+  std::vector<std::string> names;
+  for (const Engine& e : engines()) names.emplace_back(e.name);
+  return names;
+}
+
+class EngineContract : public testing::TestWithParam<std::string> {
+ protected:
+  const Engine& engine() const { return find_engine(GetParam()); }
+};
+
+/// A scene of balls of diameter `s` and more, that `scale`, `x` and `y` size and place.
+std::string balls(const std::string& items, const std::string& more = "", const std::string& material = "") {
+  return "parameters: {s: 1, x: 0, y: 0}\ngravity: [0, 0, -9.81]\nmaterials: {rock: {density: 1000" + material +
+         "}}\nelements:\n  - {packing: list, shape: {sphere: s / 2}, items: [" + items +
+         "]}\ntime: {dt: 0.005 * sqrt(s), steps: 1}\n" + more;
+}
+
+const std::string floor = "boundaries: [{plane: {point: [0, 0, 0], normal: [0, 0, 1]}}]\n";
+
+/// Spheres and everything else, bonded here and there, fall a little into a box of planes and onto a mesh.
+const std::string pile = R"(
+parameters: {s: 1, x: 0, y: 0}
+gravity: [0, 0, -9.81]
+materials: {rock: {density: 1000, friction: 0.5, restitution: 0.2}}
+elements:
+  - {packing: cubic, shape: {sphere: s / 2}, cells: [3, 3, 3], at: [x + 0.1 * s, y + 0.1 * s, 0.05 * s], jitter: 0.02, spacing: 1.05, seed: 4, id_start: 100}
+  - packing: list
+    shape: {box: [0.9 * s, 0.7 * s, 0.8 * s]}
+    items:
+      - {id: 200, at: [x + 0.8 * s, y + 0.8 * s, 3.8 * s], rotation: {axis: [1, 2, 0], angle: 20}}
+      - {id: 201, at: [x + 2.3 * s, y + 0.8 * s, 3.8 * s], shape: {capsule: {radius: 0.3 * s, length: 0.5 * s}}, rotation: {axis: [1, 0, 0], angle: 80}}
+      - {id: 202, at: [x + 0.8 * s, y + 2.3 * s, 3.8 * s], shape: {hull: {points: [[0.4 * s, 0, 0], [-0.4 * s, 0, 0], [0, 0.4 * s, 0], [0, -0.4 * s, 0], [0, 0, 0.5 * s], [0, 0, -0.5 * s]]}}}
+      - {id: 203, at: [x + 2.3 * s, y + 2.3 * s, 3.8 * s], shape: {compound: [{sphere: 0.3 * s, at: [-0.25 * s, 0, 0]}, {sphere: 0.3 * s, at: [0.25 * s, 0, 0]}]}}
+boundaries:
+  - {plane: {point: [x, y, 0], normal: [1, 0, 0]}}
+  - {plane: {point: [x, y, 0], normal: [0, 1, 0]}}
+  - {plane: {point: [x + 3.4 * s, y, 0], normal: [-1, 0, 0]}}
+  - {plane: {point: [x, y + 3.4 * s, 0], normal: [0, -1, 0]}}
+  - {box: [[x - s, y - s, 0], [x + 5 * s, y + 5 * s, 9 * s]], triangulated: true, open_top: true}
+bonds:
+  - {a: 100, b: 101, stiffness: 1e5 * s^2, damping: 100 * s^2.5, break_length: 1.2}
+  - {a: 104, b: 113, stiffness: 1e5 * s^2}
+time: {dt: 0.005 * sqrt(s), steps: 1}
+)";
+
+/// Linear and angular momentum, the latter about the origin.
+Impulse momentum(const SingleWorld& w) {
+  Impulse sum;
+  for (const Element& e : w.scene().elements) {
+    const ElementState s = w.state(e.id);
+    const Vec3 p = e.mass * s.twist.linear;
+    sum += {p, s.pose.position.cross(p) + e.mass * w.scene().shape_of(e).inertia_per_mass.x() * s.twist.angular};
+  }
+  return sum;
+}
+
+/// An oblique impact of two spheres; the largest relative changes of momentum and of angular momentum.
+std::pair<double, double> change_in_impact(const Engine& engine, double friction) {
+  SingleWorld w(engine, scene_of(balls("{id: 1, at: [0, 0, 0], velocity: [2, 0.3, 0], angular_velocity: [0, 1, 2]}, "
+                                       "{id: 2, at: [1.2, 0.3, 0.1], velocity: [-1, 0, 0], mass: 1700}",
+                                       "", ", restitution: 0.6, friction: " + std::to_string(friction)),
+                                 {set("gravity", "[0, 0, 0]")}));
+  const Impulse before = momentum(w);
+  w.steps(100);
+  EXPECT_LT(w.velocity(1).x(), 1.5) << "they met";
+  const Impulse after = momentum(w);
+  return {(after.linear - before.linear).norm() / before.linear.norm(),
+          (after.angular - before.angular).norm() / before.angular.norm()};
+}
+
+/// Angular momentum to float32's resolution of positions over 100 steps. Bullet: 4e-6.
+TEST_P(EngineContract, FreeImpactKeepsMomentum) {
+  const auto [linear, angular] = change_in_impact(engine(), 0);
+  EXPECT_LT(linear, 1e-6);
+  EXPECT_LT(angular, 1e-5);
+}
+
+/// Friction acts on either body at its own surface; where those overlap, angular momentum changes by the overlap times
+/// the friction impulse. Overlaps are at most the way covered in a step: 1.5 % of a diameter here. Bullet: 1.8e-3.
+TEST_P(EngineContract, ImpactWithFrictionKeepsMomentum) {
+  const auto [linear, angular] = change_in_impact(engine(), 0.4);
+  EXPECT_LT(linear, 1e-6);
+  EXPECT_LT(angular, 3e-3);
+}
+
+TEST_P(EngineContract, GravityIsSemiImplicitEuler) {
+  SingleWorld w(engine(), scene_of(balls("{id: 1, at: [0, 0, 9], velocity: [1, 0, 2]}")));
+  const int n = 100;
+  w.steps(n);
+  const double h = w.substep(), t = n * h;
+  EXPECT_NEAR(w.velocity(1).z(), 2 - 9.81 * t, 1e-5);
+  EXPECT_NEAR(w.position(1).z(), 9 + 2 * t - 0.5 * 9.81 * t * (t + h), 1e-5);
+  EXPECT_NEAR(w.position(1).x(), t, 1e-6);
+}
+
+TEST_P(EngineContract, OrderOfAddingDoesNotMatter) {
+  SingleWorld plain(engine(), scene_of(pile));
+  plain.steps(50);
+  for (unsigned seed = 1; seed < 4; ++seed) {
+    std::vector<std::uint32_t> order(plain.scene().elements.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::shuffle(order.begin(), order.end(), std::mt19937(seed));
+    SingleWorld other(engine(), scene_of(pile), order);
+    other.steps(50);
+    for (const ElementId id : plain.ids()) EXPECT_TRUE(same_bits(plain.state(id), other.state(id))) << id;
+  }
+}
+
+TEST_P(EngineContract, WhatWasRemovedLeavesNoTrace) {
+  SingleWorld plain(engine(), scene_of(balls("{id: 1, at: [0, 0, 0.5]}, {id: 2, at: [0.1, 0, 1.6]}", floor)));
+  SingleWorld other(engine(), scene_of(balls("{id: 1, at: [0, 0, 0.5]}, {id: 2, at: [0.1, 0, 1.6]}, "
+                                             "{id: 3, at: [0, 0.2, 2.7]}",
+                                             floor)));
+  const ElementState first = other.state(1);
+  other.world().remove(other.slot(1));
+  other.world().remove(other.slot(3));
+  const Element& e = other.scene().elements[0];
+  const Slot reused = other.world().add({e.id, e.shape, e.material, e.mass, Role::real, first});
+  plain.steps(60);
+  other.steps(60);
+  EXPECT_TRUE(same_bits(plain.state(1), other.world().state(reused)));
+  EXPECT_TRUE(same_bits(plain.state(2), other.state(2)));
+  EXPECT_EQ(other.world().work().bodies, 2U);
+}
+
+TEST_P(EngineContract, SavedWorldGoesOnAsTheOneThatStayed) {
+  SingleWorld stays(engine(), scene_of(pile));
+  stays.steps(60);
+  stays.world().canonicalise();
+  ASSERT_GT(stays.world().work().contacts, 20U);
+  std::vector<std::byte> image;
+  stays.world().save(image);
+  SingleWorld moved(engine(), stays);
+  moved.world().load(image);
+  for (int k = 0; k < 60; ++k) {
+    for (const ElementId id : stays.ids())
+      ASSERT_TRUE(same_bits(stays.state(id), moved.state(id))) << "element " << id << ", " << k << " steps later";
+    stays.steps(1);
+    moved.steps(1);
+  }
+}
+
+TEST_P(EngineContract, DamagedImageIsRefused) {
+  SingleWorld w(engine(), scene_of(pile));
+  w.steps(30);
+  w.world().canonicalise();
+  std::vector<std::byte> image;
+  w.world().save(image);
+  for (const std::size_t length : {std::size_t{0}, std::size_t{3}, image.size() / 2, image.size() - 1}) {
+    SingleWorld other(engine(), w);
+    EXPECT_THROW(other.world().load(std::span(image).first(length)), IoError) << length;
+  }
+  image[0] ^= std::byte{1};
+  SingleWorld other(engine(), w);
+  EXPECT_THROW(other.world().load(image), IoError);
+}
+
+TEST_P(EngineContract, FarElementsChangeNothing) {
+  const std::string own = "{id: 5, at: [0, 0, 0.5]}, {id: 7, at: [0.2, 0.1, 1.55]}, {id: 9, at: [-0.9, 0.1, 0.8]}";
+  const std::string far = ", {id: 1, at: [60, 0, 0.5], velocity: [3, 0, 0]}, {id: 8, at: [60, 30, 9]}";
+  const std::string material = ", friction: 0.4, restitution: 0.3";
+  SingleWorld alone(engine(), scene_of(balls(own + ", {id: 3, at: [-60, -1, 30]}", floor, material)));
+  SingleWorld together(engine(), scene_of(balls(own + ", {id: 3, at: [-60, -1, 30]}" + far, floor, material)));
+  alone.steps(100);
+  together.steps(100);
+  for (const ElementId id : {5U, 7U, 9U}) EXPECT_TRUE(same_bits(alone.state(id), together.state(id))) << id;
+}
+
+TEST_P(EngineContract, LimitsRefuse) {
+  const Scene scene = scene_of(balls("{id: 1, at: [0, 0, 1]}, {id: 2, at: [2, 0, 1]}, {id: 3, at: [4, 0, 1]}", floor));
+  Limits limits;
+  limits.elements = 4;  // three elements and the floor
+  EXPECT_NO_THROW(SingleWorld(engine(), scene, {}, limits));
+  limits.elements = 3;
+  try {
+    SingleWorld(engine(), scene, {}, limits);
+    FAIL() << "a world over its limit";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("the limit is 3"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find(GetParam()), std::string::npos) << e.what();
+  }
+}
+
+TEST_P(EngineContract, GhostsMeetRealElementsOnly) {
+  const std::string items =
+      "{id: 1, at: [0, 0, 0.6]}, {id: 2, at: [0, 0, 1.8]}, {id: 3, at: [5, 0, 0.6]}, {id: 4, at: [5, 0, 1.8]}";
+  SingleWorld w(engine(), scene_of(balls(items, floor)));
+  for (const ElementId id : {2U, 3U, 4U}) {
+    w.world().remove(w.slot(id));
+    w.add(w.scene().elements[id - 1], Role::ghost);
+  }
+  w.steps(200);
+  EXPECT_NEAR(w.position(1).z(), 0.5, 0.01) << "real on the floor";
+  EXPECT_NEAR(w.position(2).z(), 1.5, 0.02) << "ghost on a real one";
+  EXPECT_NEAR(w.position(3).z(), 0.6 - 0.5 * 9.81 * (1 + 0.005), 0.01) << "ghost through the floor";
+  EXPECT_NEAR(w.position(4).z() - w.position(3).z(), 1.2, 1e-3) << "ghost above a ghost";
+}
+
+TEST_P(EngineContract, MassIsWhatImpulsesFeelAndGravityDoesNot) {
+  SingleWorld w(engine(), scene_of(balls("{id: 1, at: [0, 0, 0], mass: 8}, {id: 2, at: [5, 0, 0], mass: 8}")));
+  w.world().set_mass(w.slot(1), 2);
+  const Impulse push{Vec3(4, 0, 0), Vec3(0, 0, 0.1)};
+  for (const ElementId id : {1U, 2U}) w.world().apply_impulse(w.slot(id), push);
+  EXPECT_NEAR(w.velocity(1).x(), 2, 1e-5);
+  EXPECT_NEAR(w.velocity(2).x(), 0.5, 1e-6);
+  EXPECT_NEAR(w.state(1).twist.angular.z(), 0.1 / (0.4 * 2 * 0.25), 1e-5);
+  EXPECT_NEAR(w.state(2).twist.angular.z(), 0.1 / (0.4 * 8 * 0.25), 1e-5);
+  w.steps(100);
+  EXPECT_NEAR(w.velocity(1).z(), -9.81 * 100 * w.substep(), 1e-4);
+  EXPECT_NEAR(w.velocity(2).z(), -9.81 * 100 * w.substep(), 1e-4);
+}
+
+TEST_P(EngineContract, StateThatWasSetIsTheStateRead) {
+  SingleWorld w(engine(), scene_of(balls("{id: 1, at: [0, 0, 0]}, {id: 2, at: [3, 0, 0]}")));
+  ElementState s;
+  s.pose.position = Vec3(1.25, -0.5, 2);
+  s.pose.orientation = Eigen::AngleAxisd(0.7, Vec3(1, 2, 2).normalized());
+  s.twist = {Vec3(1, 2, 3), Vec3(-1, 0.5, 4)};
+  w.world().set_state(w.slot(2), s);
+  const ElementState back = w.state(2);
+  EXPECT_LT((back.pose.position - s.pose.position).norm(), 1e-6);
+  EXPECT_LT(back.pose.orientation.angularDistance(s.pose.orientation), 1e-3);
+  EXPECT_LT((back.twist.linear - s.twist.linear).norm(), 1e-6);
+  EXPECT_LT((back.twist.angular - s.twist.angular).norm(), 1e-6);
+  std::vector<BodyMotion> motions;
+  const std::vector<Slot> slots{w.slot(2), w.slot(1)};
+  w.world().motions(slots, motions);
+  EXPECT_EQ(motions.at(0).position, back.pose.position);
+  EXPECT_EQ(motions.at(0).twist.angular, back.twist.angular);
+  EXPECT_EQ(motions.at(1).position, w.position(1));
+}
+
+TEST_P(EngineContract, MovingBoundaryPushes) {
+  SingleWorld w(engine(), scene_of(balls("{id: 1, at: [0, 0, 0], mass: 3}",
+                                         "boundaries: [{plate: {size: [1, 4, 4], at: [-1.2, 0, 0]}, kinematic: true, "
+                                         "motion: {velocity: [2, 0, 0], stop: 0.5}}]\n"),
+                                   {set("gravity", "[0, 0, 0]")}));
+  Vec3 given = Vec3::Zero();
+  for (int k = 0; k < 80; ++k) {
+    w.steps(1);
+    given += w.world().boundary_impulse().linear;
+  }
+  EXPECT_NEAR(w.velocity(1).x(), 2, 1e-3);
+  EXPECT_NEAR(given.x(), 3 * w.velocity(1).x(), 1e-4);
+  EXPECT_NEAR(w.position(1).x(), -0.2 + 2 * 80 * w.substep(), 0.02) << "the plate's face has come this far";
+}
+
+TEST_P(EngineContract, ContactsCarryTheWeightAtRest) {
+  SingleWorld w(engine(), scene_of(balls("{id: 1, at: [0, 0, 0.5], mass: 1}, {id: 2, at: [0, 0, 1.5], mass: 2}, "
+                                         "{id: 3, at: [0, 0, 2.5], mass: 3}",
+                                         floor)));
+  w.steps(600);
+  const double h = w.substep();
+  EXPECT_NEAR(w.world().boundary_impulse().linear.z(), 6 * 9.81 * h, 1e-3 * 6 * 9.81 * h);
+  const std::vector<Contact> contacts = w.world().contacts();
+  ASSERT_EQ(contacts.size(), 3U);
+  for (const Contact& c : contacts) {
+    const double above = c.with_boundary ? 6 : c.a == 1 ? 5 : 3;
+    const double sign = c.with_boundary ? 1 : -1;  // on the lower one, except from the floor
+    EXPECT_NEAR(c.impulse.z(), sign * above * 9.81 * h, 2e-3 * above * 9.81 * h) << c.a << " " << c.b;
+    EXPECT_NEAR(c.normal.z(), sign, 1e-5);
+    EXPECT_NEAR(c.overlap, 0, 0.02);
+    EXPECT_NEAR(c.point.z(), c.with_boundary ? 0 : c.a, 0.02);
+  }
+  EXPECT_TRUE(std::is_sorted(contacts.begin(), contacts.end(), [](const Contact& p, const Contact& q) {
+    return std::tuple(p.a, p.with_boundary, p.b) < std::tuple(q.a, q.with_boundary, q.b);
+  }));
+}
+
+TEST_P(EngineContract, BondBreaksOnceAndForGood) {
+  SingleWorld w(engine(), scene_of(balls("{id: 1, at: [0, 0, 0], mass: 1}, {id: 2, at: [1.5, 0, 0], mass: 1, "
+                                         "velocity: [4, 0, 0]}",
+                                         "bonds: [{a: 1, b: 2, stiffness: 50, break_length: 1.1}]\n"),
+                                   {set("gravity", "[0, 0, 0]")}));
+  int broke = 0;
+  double length_before = 0;
+  for (int k = 0; k < 100; ++k) {
+    const double length = (w.position(2) - w.position(1)).norm();
+    w.steps(1);
+    if (w.world().broken_bonds().empty()) continue;
+    ++broke;
+    EXPECT_EQ(w.world().broken_bonds()[0], 0U);
+    EXPECT_GT(length, 1.65);
+    EXPECT_LT(length, 1.65 + 4 * w.substep());
+    length_before = w.velocity(2).x();
+  }
+  EXPECT_EQ(broke, 1);
+  EXPECT_EQ(w.world().work().bonds, 0U);
+  EXPECT_EQ(w.velocity(2).x(), length_before) << "nothing holds it any more";
+}
+
+/// The scene at 1/1000 and 1000 times the size, times by the square root: the same motion.
+TEST_P(EngineContract, ScaleDoesNotMatter) {
+  SingleWorld one(engine(), scene_of(pile));
+  one.steps(60);
+  for (const double scale : {1e-3, 1e3}) {
+    SingleWorld other(engine(), scene_of(pile, {set("s", scale)}));
+    other.steps(60);
+    for (const ElementId id : one.ids()) {
+      EXPECT_LT((other.position(id) / scale - one.position(id)).norm(), 1e-5) << id << " at " << scale;
+      EXPECT_LT((other.velocity(id) / std::sqrt(scale) - one.velocity(id)).norm(), 1e-4) << id << " at " << scale;
+    }
+  }
+}
+
+TEST_P(EngineContract, PlaceDoesNotMatter) {
+  SingleWorld here(engine(), scene_of(pile));
+  here.steps(60);
+  const Vec3 far(1e6, -1e6, 0);
+  SingleWorld there(engine(), scene_of(pile, {set("x", far.x()), set("y", far.y())}));
+  there.steps(60);
+  for (const ElementId id : here.ids()) {
+    EXPECT_LT((there.position(id) - far - here.position(id)).norm(), 1e-5) << id;
+    EXPECT_LT((there.velocity(id) - here.velocity(id)).norm(), 1e-4) << id;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EngineContract, testing::ValuesIn(engine_names()),
+                         [](const auto& test) { return test.param; });
+
+TEST(EngineTable, ListsItselfIfAskedForAnother) {
+  try {
+    find_engine("steam");
+    FAIL();
+  } catch (const InputError& e) {
+    for (const Engine& row : engines()) EXPECT_NE(std::string(e.what()).find(row.name), std::string::npos) << row.name;
+  }
+}
+
+}  // namespace
+}  // namespace moraine
