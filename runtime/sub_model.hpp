@@ -22,8 +22,10 @@ struct Stage {
 
 /// One pass through all stages. Rounds are grouped in epochs; between epochs sub-models may gain and lose neighbours.
 struct Round {
-  std::int64_t number = 0;    ///< counted over the whole run; the opening round of an epoch has the number of the next one
-  std::int64_t in_epoch = 0;  ///< 0: the opening round, in which sub-models only exchange what the first real round needs
+  std::int64_t number =
+      0;  ///< counted over the whole run; the opening round of an epoch has the number of the next one
+  std::int64_t in_epoch =
+      0;  ///< 0: the opening round, in which sub-models only exchange what the first real round needs
 
   /// No messages of an earlier round exist and nothing must advance.
   bool opening() const { return in_epoch == 0; }

@@ -10,7 +10,8 @@
 
 namespace moraine {
 
-/// One `--set name=value` or `--set key.path=value`, with where it came from for error texts ("--set", "MORAINE_THREADS").
+/// One `--set name=value` or `--set key.path=value`, with where it came from for error texts ("--set",
+/// "MORAINE_THREADS").
 struct Override {
   std::string key;
   std::string value;

@@ -9,9 +9,9 @@
 namespace moraine {
 
 struct TimeSettings {
-  double dt = 0;          ///< one step [s]
+  double dt = 0;  ///< one step [s]
   std::int64_t steps = 0;
-  int substeps = 1;       ///< engine steps per step; sub-models are coupled after each
+  int substeps = 1;  ///< engine steps per step; sub-models are coupled after each
   struct Label {
     std::string unit;     ///< e.g. "year"; empty: seconds
     double per_step = 0;  ///< label units per step
@@ -22,25 +22,26 @@ struct TimeSettings {
 struct RunSettings {
   std::string engine = "bullet";
   std::string engine_profile = "default";  ///< declared limits: "default" or "physx" (the limits of PhysX scenes)
-  int sub_models = 0;           ///< 0: auto, from measured engine cost and ghost share
+  int sub_models = 0;                      ///< 0: auto, from measured engine cost and ghost share
   std::string split = "auto";
   std::string coupling = "consensus";
   double coupling_leak = 0.85;  ///< f, the part of the carried impulse that survives a substep; 0 .. 1
   double skin = 0.05;           ///< ghosts are made for gaps below this [element diameters]
-  double recut_ghost_share = 0.5;  ///< re-cut when ghosts / elements exceeds this and 1.3 times the share after the last cut
-  int iterations = 10;          ///< solver iterations per substep
+  double recut_ghost_share =
+      0.5;              ///< re-cut when ghosts / elements exceeds this and 1.3 times the share after the last cut
+  int iterations = 10;  ///< solver iterations per substep
   std::string scheduler = "hybrid";
-  int threads = 0;              ///< 0: the cores this process may use
-  double max_speed = 0;         ///< runaway limit [m/s]; 0: from the scene's energy
+  int threads = 0;       ///< 0: the cores this process may use
+  double max_speed = 0;  ///< runaway limit [m/s]; 0: from the scene's energy
 };
 
 struct OutputSettings {
-  std::string folder;                           ///< empty: out/NAME
-  bool quiet = false;                           ///< no progress and no table at the end
-  int every = 0;                                ///< steps between frames; 0: first and last only
-  std::vector<std::string> formats = {"pvd"};   ///< pvd, vtkhdf, lammps_dump, csv
-  bool pictures = true;                         ///< PNG of the first and last frame
-  int picture_width = 1200;                     ///< pixels
+  std::string folder;                          ///< empty: out/NAME
+  bool quiet = false;                          ///< no progress and no table at the end
+  int every = 0;                               ///< steps between frames; 0: first and last only
+  std::vector<std::string> formats = {"pvd"};  ///< pvd, vtkhdf, lammps_dump, csv
+  bool pictures = true;                        ///< PNG of the first and last frame
+  int picture_width = 1200;                    ///< pixels
 };
 
 }  // namespace moraine
