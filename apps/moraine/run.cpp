@@ -4,12 +4,14 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 
 #include "capture.hpp"
 #include "commands.hpp"
 #include "output/background.hpp"
 #include "output/progress.hpp"
+#include "physics/errors.hpp"
 #include "runtime/simulation.hpp"
 
 namespace moraine::app {
@@ -81,9 +83,20 @@ class Run {
   runtime::Simulation simulation_;
 };
 
+/// A folder that cannot be written is wrong input, and is found out before anything is computed.
+void check_folder(const std::filesystem::path& folder) {
+  const std::filesystem::path probe = folder / ".writable";
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::ofstream(probe))
+    throw InputError(fmt::format("{}: cannot write there, expected a folder for results (--out)", folder.string()));
+  std::filesystem::remove(probe, error);
+}
+
 }  // namespace
 
 int run(const Scene& scene) {
+  check_folder(folder_of(scene));
   for (const std::string& warning : scene.warnings) std::cerr << "moraine: warning: " << warning << '\n';
   const Summary summary = Run(scene).go();
   const std::filesystem::path folder = folder_of(scene);

@@ -44,7 +44,7 @@ std::size_t edits(std::string_view a, std::string_view b) {
 
 std::vector<std::string_view> keys_of(const YAML::Node& map) {
   std::vector<std::string_view> keys;
-  if (!map.IsMap()) return keys;
+  if (!map.IsDefined() || !map.IsMap()) return keys;
   for (const auto& entry : map) keys.push_back(entry.first.Scalar());
   return keys;
 }
@@ -117,8 +117,8 @@ std::string Document::resolve(const Override& change) const {
   const std::vector<std::string> parts = split_path(change.key);
   const bool malformed = parts.empty() || change.key.back() == '.' || std::count(parts.begin(), parts.end(), "") > 0;
   if (malformed) refuse(change, "not a name, expected a parameter or a path such as run.engine");
-  const YAML::Node& root = root_;
-  const std::vector<std::string_view> parameters = keys_of(root["parameters"]);
+  const YAML::Node section = static_cast<const YAML::Node&>(root_)["parameters"];
+  const std::vector<std::string_view> parameters = keys_of(section);
   if (parts.size() == 1 && contains(parameters, change.key)) return "parameters." + change.key;
   if (contains(top_keys_, parts.front())) return change.key;
   std::vector<std::string_view> known = parameters;

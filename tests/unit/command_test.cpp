@@ -136,8 +136,13 @@ TEST_F(Command, RefusesMoreThanTheEngineProfileHolds) {
 
 TEST_F(Command, RefusesAnOutputFolderItCannotMake) {
   const Ended ended = shell("moraine run " + write(good) + " --out /proc/x");
-  EXPECT_NE(ended.status, 0) << ended.text;
+  EXPECT_EQ(ended.status, 2) << ended.text;
   EXPECT_NE(ended.text.find("/proc/x"), std::string::npos) << ended.text;
+}
+
+TEST_F(Command, RunsASceneWithoutParametersWithOptions) {
+  const Ended ended = run("name: plain\ntime: {dt: 0.01, steps: 5}\n");
+  EXPECT_EQ(ended.status, 0) << ended.text;
 }
 
 TEST_F(Command, RunsNoElementsAndSaysSo) {
