@@ -146,7 +146,7 @@ TEST_F(Command, RunsASceneWithoutParametersWithOptions) {
 }
 
 TEST_F(Command, RunsNoElementsAndSaysSo) {
-  const Ended ended = run("name: nothing\nparameters: {a: 1}\ntime: {dt: 0.01, steps: 5}\n");
+  const Ended ended = run("name: nothing\ntime: {dt: 0.01, steps: 5}\n");
   EXPECT_EQ(ended.status, 0) << ended.text;
   EXPECT_NE(ended.text.find("no elements"), std::string::npos) << ended.text;
   const Json s = summary();

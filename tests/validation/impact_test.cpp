@@ -23,11 +23,11 @@ void PrintTo(const HeadOn& c, std::ostream* out) { *out << c.m1 << " kg on " << 
 
 class HeadOnImpact : public testing::TestWithParam<std::tuple<HeadOn, int>> {};
 
-/// v1' = v_c - e m2/(m1 + m2) (v1 - v2) and v2' alike, at 20 phases of the time step. Momentum is kept
-/// to 1e-6, to 1.5e-6 where one is a thousand times heavier. Restitution
-/// should be within 0.02; with Bullet it is up to 0.2 too high, because a fifth of the overlap with which an impact is
-/// found is taken back in one step and becomes speed. In two sub-models one sphere meets a ghost of half the mass: a
-/// restitution of 1 becomes 0.5 for equal masses, one of 0.5 is 0.2 off, and a light sphere on a heavy one 0.2.
+/// v1' = v_c - e m2/(m1 + m2) (v1 - v2) and v2' alike, at 20 phases of the time step. Momentum is kept to 1e-6, to
+/// 1.5e-6 where one is a thousand times heavier. Restitution should be within 0.02; with Bullet it is up to 0.1 too
+/// high, because a tenth of the overlap with which an impact is found is taken back in one step and becomes speed. In
+/// two sub-models one sphere meets a ghost of half the mass: a restitution of 1 becomes 0.58 for equal masses, one of
+/// 0.5 is up to 0.13 off.
 TEST_P(HeadOnImpact, KeepsMomentumAndRestitution) {
   const auto& [c, parts] = GetParam();
   const double total = c.m1 + c.m2, closing = c.v1 - c.v2;
@@ -50,7 +50,7 @@ TEST_P(HeadOnImpact, KeepsMomentumAndRestitution) {
   RecordProperty("momentum", fmt::format("{:.2e}", worst_momentum));
   RecordProperty("restitution", fmt::format("{:.2e}", worst_restitution));
   EXPECT_LT(worst_momentum, 3e-6);
-  EXPECT_LT(worst_restitution, parts == 1 ? 0.201 : 0.51);
+  EXPECT_LT(worst_restitution, parts == 1 ? 0.101 : 0.45);
 }
 
 const std::vector<HeadOn> head_on = {
