@@ -38,11 +38,11 @@ void verify_shared(const SubModel& part, bool offsets_sum_to_zero) {
     bool own = false;
     for (const Copy& c : s.copies) {
       sum += c.offset.linear;
-      scale += c.offset.linear.norm();
+      scale += c.offset.linear.norm() + s.state.twist.linear.norm();
       own = own || c.world == part.id();
     }
     if (!own) broken(fmt::format("shared element {} has no copy at its owner", s.element));
-    if (offsets_sum_to_zero && sum.norm() > 1e-9 * scale + 1e-300)
+    if (offsets_sum_to_zero && sum.norm() > 1e-9 * scale + 1e-12)
       broken(fmt::format("what the copies of element {} carry does not sum to nothing", s.element));
   }
 }

@@ -10,12 +10,16 @@ namespace {
 
 using Subset = std::span<std::uint32_t>;
 
+/// Order along an axis; ties by the other axes in turn, so that equal columns stay together, then by index.
 struct Along {
   std::span<const Vec3> positions;
   int axis;
   bool operator()(std::uint32_t i, std::uint32_t j) const {
-    const double a = positions[i][axis], b = positions[j][axis];
-    return a != b ? a < b : i < j;
+    for (int k = 0; k < 3; ++k) {
+      const double a = positions[i][(axis + k) % 3], b = positions[j][(axis + k) % 3];
+      if (a != b) return a < b;
+    }
+    return i < j;
   }
 };
 

@@ -27,6 +27,8 @@ int guarded(const std::function<int()>& command) {
     return command();
   } catch (const moraine::runtime::RunError& e) {
     return guarded([&]() -> int { std::rethrow_exception(e.cause()); });
+  } catch (const std::invalid_argument& e) {  // an unknown scheduler or number of threads
+    return fail(e.what(), InputError::exit_status);
   } catch (const InputError& e) {
     return fail(e.what(), InputError::exit_status);
   } catch (const InvalidStateError& e) {

@@ -42,7 +42,8 @@ void apply_world_settings(btDiscreteDynamicsWorld& world, const WorldSettings& s
   solver.m_solverMode = solver_mode(settings.features);
   solver.m_numIterations = settings.iterations;
   solver.m_warmstartingFactor = warm_start;
-  solver.m_restitutionVelocityThreshold = restitution_threshold;
+  // Without gravity nothing has to come to rest on anything, and there is no speed to compare with.
+  solver.m_restitutionVelocityThreshold = settings.gravity.isZero() ? 0 : restitution_threshold;
   solver.m_splitImpulse = 1;
   solver.m_splitImpulsePenetrationThreshold = split_impulse_threshold;
   solver.m_erp = overlap_recovery;

@@ -14,12 +14,14 @@ btScalar radius(const btCollisionObjectWrapper* o) {
 }
 
 btManifoldPoint fresh_point(const btCollisionObject* a, const btCollisionObject* b) {
-  btManifoldPoint p;
+  const btVector3 zero(0, 0, 0);
+  btManifoldPoint p(zero, zero, zero, 0);
+  p.m_partId0 = p.m_partId1 = p.m_index0 = p.m_index1 = 0;
+  p.m_positionWorldOnA = p.m_positionWorldOnB = zero;
   p.m_combinedFriction = gCalculateCombinedFrictionCallback(a, b);
   p.m_combinedRestitution = gCalculateCombinedRestitutionCallback(a, b);
   p.m_combinedRollingFriction = 0;
   p.m_combinedSpinningFriction = 0;
-  p.m_distance1 = 0;
   return p;
 }
 
