@@ -90,6 +90,7 @@ WorldSettings world_settings(const Scene& scene) {
   w.gravity = scene.gravity;
   w.substep = scene.time.substep();
   w.iterations = scene.run.iterations;
+  w.overlap_recovery = scene.run.overlap_recovery;
   w.features = features_of(scene);
   w.limits = find_limits(scene.run.engine_profile);
   w.scene = &scene;

@@ -44,6 +44,7 @@ struct WorldSettings {
   Vec3 gravity = Vec3::Zero();
   double substep = 0;  ///< [s]
   int iterations = 10;
+  double overlap_recovery = 0.1;  ///< share of an overlap removed per substep
   Features features;
   Limits limits;
   const Scene* scene = nullptr;  ///< shapes, materials and boundaries are read from here; outlives the world

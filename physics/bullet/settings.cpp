@@ -13,7 +13,6 @@ namespace {
 constexpr btScalar restitution_threshold = 0.2F / 3.1321F;  // slower impacts do not bounce
 constexpr btScalar split_impulse_threshold = -0.04F;        // deeper overlaps are removed without adding velocity
 constexpr btScalar warm_start = 0.85F;                      // 1.0 lets even an uncut column gain energy
-constexpr btScalar overlap_recovery = 0.1F;  // share of an overlap removed per substep; 0.2 keeps tall stacks hopping
 
 int solver_mode(const Features& features) {
   // Start from the last step's impulses: small steps with few iterations rely on it.
@@ -46,8 +45,8 @@ void apply_world_settings(btDiscreteDynamicsWorld& world, const WorldSettings& s
   solver.m_restitutionVelocityThreshold = settings.gravity.isZero() ? 0 : restitution_threshold;
   solver.m_splitImpulse = 1;
   solver.m_splitImpulsePenetrationThreshold = split_impulse_threshold;
-  solver.m_erp = overlap_recovery;
-  solver.m_erp2 = overlap_recovery;
+  // Bullet's 0.2 keeps tall stacks hopping; 0.1 lets them rest at twice the overlap.
+  solver.m_erp = solver.m_erp2 = static_cast<btScalar>(settings.overlap_recovery);
   solver.m_sor = 1;                            // plain Gauss-Seidel
   solver.m_globalCfm = 0;                      // hard contacts
   solver.m_linearSlop = 0;                     // no tolerated overlap

@@ -59,7 +59,7 @@ void read_run(const Node& root, RunSettings& run) {
   const auto node = root.find("run");
   if (!node) return;
   node->allow({"engine", "engine_profile", "sub_models", "split", "coupling", "coupling_leak", "skin",
-               "recut_ghost_share", "iterations", "scheduler", "threads", "max_speed"});
+               "recut_ghost_share", "iterations", "overlap_recovery", "scheduler", "threads", "max_speed"});
   run.engine = node->text("engine", run.engine);
   run.engine_profile = node->text("engine_profile", run.engine_profile);
   run.sub_models = read_sub_models(*node);
@@ -69,6 +69,7 @@ void read_run(const Node& root, RunSettings& run) {
   run.skin = node->not_negative("skin", run.skin);
   run.recut_ghost_share = node->not_negative("recut_ghost_share", run.recut_ghost_share);
   run.iterations = read_int(*node, "iterations", run.iterations, 1);
+  run.overlap_recovery = read_fraction(*node, "overlap_recovery", run.overlap_recovery);
   run.scheduler = node->text("scheduler", run.scheduler);
   run.threads = read_int(*node, "threads", run.threads, 0);
   run.max_speed = node->not_negative("max_speed", run.max_speed);

@@ -30,6 +30,7 @@ struct RunSettings {
   double recut_ghost_share =
       0.5;              ///< re-cut when ghosts / elements exceeds this and 1.3 times the share after the last cut
   int iterations = 10;  ///< solver iterations per substep
+  double overlap_recovery = 0.1;  ///< share of an overlap that an engine removes per substep; 0 .. 1
   std::string scheduler = "hybrid";
   int threads = 0;       ///< 0: the cores this process may use
   double max_speed = 0;  ///< runaway limit [m/s]; 0: from the scene's energy
