@@ -16,10 +16,12 @@ Twist sum(const Twist& a, const Twist& b) { return {a.linear + b.linear, a.angul
 
 }  // namespace
 
-void SubModel::bound_update(const runtime::Round&, runtime::Port& port) {
-  update_bounds();
-  for (OwnerLink& link : owner_links_) choose_hosted(link);
-  update_shared();
+void SubModel::bound_update(const runtime::Round& round, runtime::Port& port) {
+  if (!(round.opening() && interrupted_)) {
+    update_bounds();
+    for (OwnerLink& link : owner_links_) choose_hosted(link);
+    update_shared();
+  }
   for (SharedElement& shared : shared_) start_shared(shared);
   for (const OwnerLink& link : owner_links_) send_ghosts(link, port);
 }

@@ -8,6 +8,7 @@
 namespace moraine {
 
 void SubModel::force_mirror(const runtime::Round& round, runtime::Port& port) {
+  if (round.opening() && interrupted_) return;
   for (OwnerLink& link : owner_links_) receive_results(link, port.received(link.host));
   if (round.opening()) return;
   for (SharedElement& shared : shared_) combine(shared);

@@ -158,8 +158,17 @@ std::vector<std::uint32_t> CoupledModel::alive_bonds() const {
   return out;
 }
 
+/// Epochs end where the model says. Being stopped earlier, for a frame, must not change anything.
 std::int64_t CoupledModel::begin_epoch(std::int64_t next_round, std::int64_t at_most) {
   rounds_done_ = next_round;
+  if (next_round < epoch_end_)
+    for (auto& part : sub_models_) part->go_on();
+  else
+    open_epoch();
+  return std::min(at_most, epoch_end_ - next_round);
+}
+
+void CoupledModel::open_epoch() {
   note_extremes();
   check_invariants(*this);
   if (should_recut()) {
@@ -169,8 +178,7 @@ std::int64_t CoupledModel::begin_epoch(std::int64_t next_round, std::int64_t at_
     ++closed_.recuts;
   }
   for (auto& part : sub_models_) part->canonicalise();
-  settle_neighbours(at_most);
-  return epoch_rounds_;
+  settle_neighbours();
 }
 
 std::size_t CoupledModel::ghosts_now() const {
@@ -216,12 +224,12 @@ void CoupledModel::take_over_accounts() {
 }
 
 /// By bounds, and by bonds across cuts, which also tie sub-models that are apart.
-void CoupledModel::settle_neighbours(std::int64_t at_most) {
+void CoupledModel::settle_neighbours() {
   std::vector<Reach> reaches;
   for (const auto& part : sub_models_) reaches.push_back({part->bounds(), part->max_speed()});
-  const Neighbourhood near =
-      find_neighbours(reaches, context_.world.length_unit, scene().gravity.norm(), context_.world.substep, at_most);
-  epoch_rounds_ = near.rounds;
+  const Neighbourhood near = find_neighbours(reaches, context_.world.length_unit, scene().gravity.norm(),
+                                             context_.world.substep, std::numeric_limits<std::int64_t>::max());
+  epoch_end_ = rounds_done_ + near.rounds;
 
   std::map<std::pair<SubModelId, SubModelId>, std::vector<std::uint32_t>> pairs;
   for (const auto& pair : near.pairs) pairs[pair];

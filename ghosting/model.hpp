@@ -59,7 +59,8 @@ class CoupledModel final : public runtime::Model {
   void cut(std::span<const ElementState> states);
   bool should_recut() const;
   double ghost_share() const;
-  void settle_neighbours(std::int64_t at_most);
+  void open_epoch();
+  void settle_neighbours();
   void note_extremes();
   void take_over_accounts();
 
@@ -69,7 +70,7 @@ class CoupledModel final : public runtime::Model {
   std::size_t parts_ = 1;
   std::vector<std::unique_ptr<SubModel>> sub_models_;
   std::vector<SubModelId> owners_;
-  std::int64_t epoch_rounds_ = 1;
+  std::int64_t epoch_end_ = 0;   ///< the first round for which neighbours must be settled anew
   double share_after_cut_ = -1;  ///< -1: not known yet
   std::int64_t rounds_done_ = 0, rounds_at_cut_ = 0;
 

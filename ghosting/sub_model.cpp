@@ -117,6 +117,7 @@ ElementState SubModel::state(std::size_t member) const {
 }
 
 void SubModel::set_neighbours(std::span<const Neighbour> neighbours) {
+  interrupted_ = false;
   std::vector<HostLink> old_hosts = std::move(host_links_);
   std::vector<OwnerLink> old_owners = std::move(owner_links_);
   host_links_.clear();

@@ -86,6 +86,9 @@ class SubModel final : public runtime::SubModel {
     std::vector<CrossBond> bonds;
   };
   void set_neighbours(std::span<const Neighbour> neighbours);
+  /// The epoch was only interrupted: the next opening round repeats what neighbours were told last, and changes
+  /// nothing.
+  void go_on() { interrupted_ = true; }
   /// Called between epochs in every sub-model alike.
   void canonicalise() { world_->canonicalise(); }
 
@@ -172,6 +175,7 @@ class SubModel final : public runtime::SubModel {
   double disagreement_ = 0;
   std::uint64_t disagreements_ = 0;
   std::uint64_t ghost_rounds_ = 0, rounds_ = 0;
+  bool interrupted_ = false;
 
   // Buffers, reused
   std::vector<std::byte> bytes_;

@@ -103,7 +103,8 @@ class Executor::Run {
     }
   }
 
-  Task first_task(int worker) {
+  // Not inlined, so that the race detector's list of known reports can name it.
+  [[gnu::noinline]] Task first_task(int worker) {
     const std::lock_guard lock(mutex_);
     return current_[static_cast<std::size_t>(worker)];
   }
