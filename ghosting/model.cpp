@@ -77,7 +77,8 @@ Features features_of(const Scene& scene) {
   f.friction = scene.materials.any_friction();
   f.restitution = scene.materials.any_restitution();
   f.bonds = !scene.bonds.empty();
-  f.spheres_only = std::all_of(scene.shapes.begin(), scene.shapes.end(), [](const Shape& s) { return s.sphere(); });
+  f.spheres_only = std::all_of(scene.elements.begin(), scene.elements.end(),
+                               [&](const Element& e) { return scene.shape_of(e).sphere(); });
   return f;
 }
 
