@@ -6,8 +6,6 @@
 namespace moraine::bullet {
 namespace {
 
-constexpr int boundary_group = 4, real_group = 1;
-
 OwnedShape boundary_shape(const Boundary& b, const Scene& scene, double scale) {
   if (const auto* plane = std::get_if<Plane>(&b.geometry)) return make_shape(*plane, scale);
   if (const auto* mesh = std::get_if<TriangleMesh>(&b.geometry)) return make_shape(*mesh, scale);

@@ -13,10 +13,6 @@ constexpr btScalar skin = 0.15F;
 // Bullet keeps contacts up to this gap [element diameters]; boxes are tested this much wider.
 constexpr btScalar contact_reach = 0.02F;
 
-const BodyTag& tag(const btBroadphaseProxy* proxy) {
-  return *static_cast<const BodyTag*>(Broadphase::object(proxy)->getUserPointer());
-}
-
 std::uint64_t key(const btBroadphaseProxy* proxy) { return tag(proxy).key; }
 
 bool is_plane(const btCollisionObject& o) { return o.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE; }

@@ -22,6 +22,15 @@ struct BodyTag {
   bool is_boundary() const { return key & boundary_bit; }
 };
 
+/// Who meets whom: ghosts meet real elements only, boundaries too.
+enum Group : int { real_group = 1, ghost_group = 2, boundary_group = 4 };
+
+/// What the world has hung on a body.
+inline const BodyTag& tag(const btCollisionObject* o) { return *static_cast<const BodyTag*>(o->getUserPointer()); }
+inline const BodyTag& tag(const btBroadphaseProxy* p) {
+  return tag(static_cast<const btCollisionObject*>(p->m_clientObject));
+}
+
 /// A broad phase and pair cache in one. Candidate pairs (gap below a skin) are listed in ascending (key, key) order and
 /// kept until some body has moved half the skin. Each step only candidates that really touch reach the narrow phase, so
 /// what is computed depends on the bodies' present state and contacts, not on the list's age.

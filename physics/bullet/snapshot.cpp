@@ -71,10 +71,6 @@ btManifoldPoint point(const PointImage& i) {
   return p;
 }
 
-const BodyTag& tag(const btBroadphaseProxy* p) {
-  return *static_cast<const BodyTag*>(Broadphase::object(p)->getUserPointer());
-}
-
 /// A pair whose contacts sit in one manifold that the pair's algorithm owns from its first call; compounds have many.
 bool one_manifold(const btCollisionObject* a, const btCollisionObject* b) {
   return !a->getCollisionShape()->isCompound() && !b->getCollisionShape()->isCompound();

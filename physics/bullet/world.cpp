@@ -11,16 +11,12 @@
 namespace moraine::bullet {
 namespace {
 
-enum Group : int { real_group = 1, ghost_group = 2, boundary_group = 4 };
-
 int group_of(Role role) { return role == Role::real ? real_group : ghost_group; }
 /// Ghosts meet real elements only: their contacts with ghosts and boundaries live in the owner's world.
 int mask_of(Role role) { return role == Role::real ? real_group | ghost_group | boundary_group : real_group; }
 
 /// Bullet hands these callbacks two bodies and no context, so each step says whose table holds on this thread.
 thread_local const MaterialTable* active_materials = nullptr;
-
-const BodyTag& tag(const btCollisionObject* o) { return *static_cast<const BodyTag*>(o->getUserPointer()); }
 
 const PairLaw& law(const btCollisionObject* a, const btCollisionObject* b) {
   return active_materials->pair(tag(a).material, tag(b).material);
@@ -199,7 +195,7 @@ void BulletWorld::step(double t) {
 void BulletWorld::sum_boundary_impulse() {
   boundary_impulse_ = {};
   broadphase_.each_contact_pair([&](btBroadphasePair& pair) {
-    if (!tag(Broadphase::object(pair.m_pProxy1)).is_boundary()) return;
+    if (!tag(pair.m_pProxy1).is_boundary()) return;
     btManifoldArray manifolds;
     pair.m_algorithm->getAllContactManifolds(manifolds);
     for (int i = 0; i < manifolds.size(); ++i)
