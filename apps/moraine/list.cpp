@@ -9,6 +9,7 @@
 #include "ghosting/split.hpp"
 #include "output/writer.hpp"
 #include "physics/world.hpp"
+#include "runtime/balance/registry.hpp"
 #include "runtime/schedule/registry.hpp"
 
 namespace moraine::app {
@@ -27,6 +28,7 @@ int list() {
   print("splits", splits());
   print("couplings", couplings());
   print("schedulers", runtime::schedulers());
+  print("balancers", runtime::balancers());
   print("output formats", writers());
   return 0;
 }

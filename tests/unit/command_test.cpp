@@ -91,7 +91,7 @@ TEST_F(Command, HelpAndVersionAreNoErrors) {
 
 TEST_F(Command, ListNamesEveryTable) {
   const std::string text = shell("moraine list").text;
-  for (const char* name : {"bullet", "pillars", "consensus", "hybrid", "pvd"})
+  for (const char* name : {"bullet", "pillars", "consensus", "hybrid", "diffusion", "pvd"})
     EXPECT_NE(text.find(name), std::string::npos) << name;
 }
 
