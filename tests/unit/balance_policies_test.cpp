@@ -114,6 +114,19 @@ TEST(Refine, SwapsWhereNoMoveHelps) {
   EXPECT_EQ(moves(problem.owner, plan("refine", problem)), 2);
 }
 
+/// A swap of the two at the border would cut three links, others cut two.
+TEST(Refine, SwapsWhatCutsFewestMessages) {
+  const BalanceProblem problem = row({5, 5, 3, 3}, 2);
+  EXPECT_DOUBLE_EQ(forecast(problem, plan("refine", problem)).cut_bytes, 20);
+}
+
+/// No move or swap helps here, though the best is 4.
+TEST(Refine, StartsAnewWhereItIsStuck) {
+  BalanceProblem problem = blocks({3, 3, 1, 1, 1, 3, 1, 3}, 4);
+  problem.owner = {3, 2, 1, 1, 1, 1, 1, 3};
+  EXPECT_DOUBLE_EQ(makespan(problem, plan("refine", problem)), 4);
+}
+
 std::set<std::pair<int, int>> neighbouring_ranks(const BalanceProblem& problem) {
   std::set<std::pair<int, int>> pairs;
   for (const Traffic& traffic : problem.traffic) {
@@ -175,6 +188,27 @@ TEST(Graph, HoldsItsBoundOnTheImbalance) {
     BalanceProblem problem = grid(8, 8, 8);
     problem.load = random_loads(seed, 64);
     EXPECT_LE(imbalance(problem, plan("graph", problem)), 1.08) << seed;
+  }
+}
+
+/// A quarter of the square costs three times as much as the rest.
+BalanceProblem ridge(SubModelId side, int ranks) {
+  BalanceProblem problem = grid(side, side, ranks);
+  for (SubModelId s = 0; s < problem.size(); ++s) problem.load[s] = s % side < side / 4 ? 3 : 1;
+  return problem;
+}
+
+TEST(Graph, LeavesHalfInPlace) {
+  BalanceProblem problem = ridge(16, 32);
+  problem.costs.rounds = 20;
+  EXPECT_LE(moves(problem.owner, plan("graph", problem)), 128);
+}
+
+TEST(Graph, KeepsToMemory) {
+  for (const double limit : {8000.0, 9000.0, 12000.0}) {
+    BalanceProblem problem = ridge(16, 32);
+    problem.memory.assign(32, limit);
+    EXPECT_TRUE(fits_memory(problem, plan("graph", problem))) << limit;
   }
 }
 
