@@ -33,7 +33,7 @@ void BondSolver::remove(std::uint32_t bond) {
 }
 
 void BondSolver::convertJoints(btTypedConstraint** constraints, int count, const btContactSolverInfo& info) {
-  btSequentialImpulseConstraintSolver::convertJoints(constraints, count, info);
+  ContactSolver::convertJoints(constraints, count, info);
   drop_broken();
   rows_.clear();
   for (const BondSpring& s : springs_) {
@@ -91,7 +91,7 @@ btScalar BondSolver::solveSingleIteration(int iteration, btCollisionObject** bod
     const btScalar change = solve(row);
     residual = std::max(residual, change * change);
   }
-  return std::max(residual, btSequentialImpulseConstraintSolver::solveSingleIteration(
+  return std::max(residual, ContactSolver::solveSingleIteration(
                                 iteration, bodies, body_count, manifolds, manifold_count, constraints, constraint_count,
                                 info, draw));
 }
@@ -99,7 +99,7 @@ btScalar BondSolver::solveSingleIteration(int iteration, btCollisionObject** bod
 btScalar BondSolver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int count,
                                                    const btContactSolverInfo& info) {
   for (std::size_t i = 0; i < rows_.size(); ++i) springs_[i].impulse = rows_[i].impulse;
-  return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyFinish(bodies, count, info);
+  return ContactSolver::solveGroupCacheFriendlyFinish(bodies, count, info);
 }
 
 }  // namespace moraine::bullet

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bullet's sequential-impulse solver with bonds added as one-row soft constraints.
+// The contact solver with bonds added as one-row soft constraints.
 #pragma once
-
-#include <btBulletDynamicsCommon.h>
 
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "physics/bullet/contact_solver.hpp"
 
 namespace moraine::bullet {
 
@@ -27,7 +27,7 @@ struct BondSpring {
 /// with v' the stretching speed at the end of the step: theta = 0 (symplectic Euler, no numerical damping) while
 /// h sqrt(k/m*) <= 1/2, which is stable in a packed lattice, and theta = 1 (implicit Euler) above. Bonds longer than
 /// their break length are dropped before the step they would act in.
-class BondSolver final : public btSequentialImpulseConstraintSolver {
+class BondSolver final : public ContactSolver {
  public:
   void add(const BondSpring& spring);
   void remove(std::uint32_t bond);

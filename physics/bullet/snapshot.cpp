@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Bullet world to bytes and back: bodies with their exact matrices, contacts with their warm-start impulses, bonds.
+#include "physics/bullet/impact_memory.hpp"
 #include "physics/bullet/world.hpp"
 #include "physics/bytes.hpp"
 
@@ -7,12 +8,12 @@ namespace moraine::bullet {
 namespace {
 
 constexpr std::uint32_t magic = 0x4d42574cU;  // "LWBM"
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 
 struct BodyImage {
   std::uint32_t slot, id, shape, material;
   std::uint8_t role;
-  double mass;
+  double mass, whole_mass;
   btScalar basis[9], origin[3], linear[3], angular[3];
 };
 
@@ -23,7 +24,7 @@ btVector3 vector(const btScalar* from) { return {from[0], from[1], from[2]}; }
 
 struct PointImage {
   btScalar local_a[3], local_b[3], world_a[3], world_b[3], normal[3], dir1[3], dir2[3];
-  btScalar distance, impulse, lateral1, lateral2, friction, restitution;
+  btScalar distance, impact_overlap, impulse, lateral1, lateral2, friction, restitution;
   std::int32_t flags, lifetime, part0, part1, index0, index1;
 };
 
@@ -37,6 +38,7 @@ PointImage image(const btManifoldPoint& p) {
   copy(p.m_lateralFrictionDir1, i.dir1);
   copy(p.m_lateralFrictionDir2, i.dir2);
   i.distance = p.m_distance1;
+  i.impact_overlap = impact_overlap(p);
   i.impulse = p.m_appliedImpulse;
   i.lateral1 = p.m_appliedImpulseLateral1;
   i.lateral2 = p.m_appliedImpulseLateral2;
@@ -57,6 +59,7 @@ btManifoldPoint point(const PointImage& i) {
   p.m_positionWorldOnB = vector(i.world_b);
   p.m_lateralFrictionDir1 = vector(i.dir1);
   p.m_lateralFrictionDir2 = vector(i.dir2);
+  set_impact_overlap(p, i.impact_overlap);
   p.m_appliedImpulse = i.impulse;
   p.m_appliedImpulseLateral1 = i.lateral1;
   p.m_appliedImpulseLateral2 = i.lateral2;
@@ -98,6 +101,7 @@ void BulletWorld::save(std::vector<std::byte>& out) const {
     b.material = e.tag.material;
     b.role = static_cast<std::uint8_t>(e.role);
     b.mass = e.mass;
+    b.whole_mass = e.whole_mass;
     const btTransform& pose = e.body->getWorldTransform();
     for (int row = 0; row < 3; ++row) copy(pose.getBasis()[row], b.basis + 3 * row);
     copy(pose.getOrigin(), b.origin);
@@ -148,7 +152,7 @@ void BulletWorld::load(std::span<const std::byte> in) {
   std::vector<BodyImage> bodies;
   r.get_all(bodies);
   for (const BodyImage& b : bodies) {
-    place(b.slot, {b.id, b.shape, b.material, b.mass, static_cast<Role>(b.role), {}});
+    place(b.slot, {b.id, b.shape, b.material, b.mass, static_cast<Role>(b.role), {}}, b.whole_mass);
     btRigidBody& body = *entry(b.slot).body;
     const btMatrix3x3 basis(b.basis[0], b.basis[1], b.basis[2], b.basis[3], b.basis[4], b.basis[5], b.basis[6],
                             b.basis[7], b.basis[8]);

@@ -82,17 +82,19 @@ Slot BulletWorld::free_slot() {
 Slot BulletWorld::add(const Body& body) {
   check_limits();
   const Slot slot = free_slot();
-  place(slot, body);
+  place(slot, body, body.mass);
   return slot;
 }
 
-void BulletWorld::place(Slot slot, const Body& body) {
+void BulletWorld::place(Slot slot, const Body& body, double whole_mass) {
   Entry& e = entry(slot);
   const Shape& s = settings_.scene->shapes[body.shape];
   e.tag = {body.id, body.material, static_cast<btScalar>(s.bounding_radius / units_.length), s.sphere() != nullptr};
   e.shape = body.shape;
   e.role = body.role;
   e.mass = body.mass;
+  e.whole_mass = whole_mass;
+  e.tag.shared = body.role == Role::ghost || body.mass < whole_mass;
   btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(body.mass / units_.mass), nullptr,
                                                 shape(body.shape), inertia(body.shape, body.mass));
   e.body = std::make_unique<btRigidBody>(info);
@@ -152,6 +154,7 @@ void BulletWorld::set_mass(Slot slot, double mass) {
   Entry& e = entry(slot);
   if (e.mass == mass) return;
   e.mass = mass;
+  e.tag.shared = e.role == Role::ghost || mass < e.whole_mass;
   e.body->setMassProps(static_cast<btScalar>(mass / units_.mass), inertia(e.shape, mass));
   e.body->setGravity(dynamics_.getGravity());  // Bullet keeps gravity as a force, which scales with the mass
   e.body->updateInertiaTensor();

@@ -49,13 +49,14 @@ class BulletWorld final : public World {
     BodyTag tag;
     std::uint32_t shape = 0;
     Role role = Role::real;
-    double mass = 0;  ///< SI
+    double mass = 0;        ///< SI
+    double whole_mass = 0;  ///< SI; of all copies together, if this is a real one
   };
 
   Entry& entry(Slot slot) { return *entries_[slot]; }
   const Entry& entry(Slot slot) const { return *entries_[slot]; }
   Slot free_slot();
-  void place(Slot slot, const Body& body);
+  void place(Slot slot, const Body& body, double whole_mass);
   void check_limits() const;
   btCollisionShape* shape(std::uint32_t index);
   btVector3 inertia(std::uint32_t shape, double mass) const;
