@@ -91,9 +91,9 @@ btScalar BondSolver::solveSingleIteration(int iteration, btCollisionObject** bod
     const btScalar change = solve(row);
     residual = std::max(residual, change * change);
   }
-  return std::max(residual, ContactSolver::solveSingleIteration(
-                                iteration, bodies, body_count, manifolds, manifold_count, constraints, constraint_count,
-                                info, draw));
+  return std::max(residual,
+                  ContactSolver::solveSingleIteration(iteration, bodies, body_count, manifolds, manifold_count,
+                                                      constraints, constraint_count, info, draw));
 }
 
 btScalar BondSolver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int count,

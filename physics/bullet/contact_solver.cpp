@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/bullet/contact_solver.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 
 #include "physics/bullet/broadphase.hpp"
@@ -9,21 +10,37 @@
 namespace moraine::bullet {
 namespace {
 
-constexpr btScalar off = -1e10F;              // a right-hand side that no approach can outweigh: the row never pushes
-constexpr btScalar negligible_overlap = 1e-6F;  // [element diameters]; float32 does not resolve less
+constexpr btScalar off = -1e10F;                // a right-hand side that no approach can outweigh: the row never pushes
+constexpr btScalar negligible_overlap = 1e-7F;  // [element diameters]; float32 resolves no less
 
-/// Rate at which the row's gap opens with the solver's changes of velocity.
+/// A vector's three numbers and the padding after them, for the processor's four lanes.
+using Lanes = Eigen::Array4f;
+Eigen::Map<const Lanes> lanes(const btVector3& v) { return Eigen::Map<const Lanes>(v.m_floats); }
+Eigen::Map<Lanes> lanes(btVector3& v) { return Eigen::Map<Lanes>(v.m_floats); }
+
+/// Speed at which the row's gap opens when its bodies move like this.
+btScalar opening(const btSolverConstraint& row, const btVector3& linear_a, const btVector3& angular_a,
+                 const btVector3& linear_b, const btVector3& angular_b) {
+  const Lanes sum = lanes(row.m_contactNormal1) * lanes(linear_a) + lanes(row.m_relpos1CrossNormal) * lanes(angular_a) +
+                    lanes(row.m_contactNormal2) * lanes(linear_b) + lanes(row.m_relpos2CrossNormal) * lanes(angular_b);
+  return sum[0] + sum[1] + sum[2];
+}
+
+/// The part of that speed which the solver has made.
 btScalar change(const btSolverConstraint& row, const btSolverBody& a, const btSolverBody& b) {
-  return row.m_contactNormal1.dot(a.getDeltaLinearVelocity()) + row.m_relpos1CrossNormal.dot(a.getDeltaAngularVelocity()) +
-         row.m_contactNormal2.dot(b.getDeltaLinearVelocity()) + row.m_relpos2CrossNormal.dot(b.getDeltaAngularVelocity());
+  return opening(row, a.getDeltaLinearVelocity(), a.getDeltaAngularVelocity(), b.getDeltaLinearVelocity(),
+                 b.getDeltaAngularVelocity());
+}
+
+void push(btSolverBody& body, const btVector3& normal, const btVector3& angular, btScalar impulse) {
+  lanes(body.internalGetDeltaLinearVelocity()) += lanes(normal) * (body.internalGetInvMass().x() * impulse);
+  lanes(body.internalGetDeltaAngularVelocity()) += lanes(angular) * impulse;
 }
 
 void apply(btSolverConstraint& row, btSolverBody& a, btSolverBody& b, btScalar impulse) {
   row.m_appliedImpulse += impulse;
-  a.internalGetDeltaLinearVelocity() += row.m_contactNormal1 * (a.internalGetInvMass().x() * impulse);
-  a.internalGetDeltaAngularVelocity() += row.m_angularComponentA * impulse;
-  b.internalGetDeltaLinearVelocity() += row.m_contactNormal2 * (b.internalGetInvMass().x() * impulse);
-  b.internalGetDeltaAngularVelocity() += row.m_angularComponentB * impulse;
+  push(a, row.m_contactNormal1, row.m_angularComponentA, impulse);
+  push(b, row.m_contactNormal2, row.m_angularComponentB, impulse);
 }
 
 bool is_shared(const btSolverBody& b) { return b.m_originalBody && tag(b.m_originalBody).shared; }
@@ -41,20 +58,20 @@ void share_inverse_mass(btSolverConstraint& s, btSolverConstraint& t) {
 
 void ContactSolver::convertContacts(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) {
   btSequentialImpulseConstraintSolver::convertContacts(manifolds, count, info);
-  overlaps_to_split_ = false;
-  for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); ++i)
-    prepare_impact(m_tmpSolverContactConstraintPool[i], info);
-  btConstraintArray& tangents = m_tmpSolverContactFrictionConstraintPool;
-  if (info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS)
-    for (int i = 0; i < tangents.size(); i += 2) share_inverse_mass(tangents[i], tangents[i + 1]);
+  split_rows_.clear();
+  const bool rough = info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS;
+  for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); ++i) {
+    btSolverConstraint& normal = m_tmpSolverContactConstraintPool[i];
+    prepare_impact(normal, info);
+    if (rough) prepare_friction(normal, info.m_warmstartingFactor);
+  }
 }
 
-/// Speed at which the bodies approached before this step's forces.
-btScalar ContactSolver::approach(const btSolverConstraint& row) const {
+/// Speed at which the bodies part before this step's forces.
+btScalar ContactSolver::parting(const btSolverConstraint& row) const {
   const btSolverBody& a = m_tmpSolverBodyPool[row.m_solverBodyIdA];
   const btSolverBody& b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
-  return -row.m_contactNormal1.dot(a.m_linearVelocity) - row.m_relpos1CrossNormal.dot(a.m_angularVelocity) -
-         row.m_contactNormal2.dot(b.m_linearVelocity) - row.m_relpos2CrossNormal.dot(b.m_angularVelocity);
+  return opening(row, a.m_linearVelocity, a.m_angularVelocity, b.m_linearVelocity, b.m_angularVelocity);
 }
 
 bool ContactSolver::of_shared(const btSolverConstraint& row) const {
@@ -63,24 +80,45 @@ bool ContactSolver::of_shared(const btSolverConstraint& row) const {
 
 void ContactSolver::prepare_impact(btSolverConstraint& row, const btContactSolverInfo& info) {
   btManifoldPoint& p = *static_cast<btManifoldPoint*>(row.m_originalContactPoint);
-  const btScalar overlap = -p.getDistance();
-  const bool impact = !of_shared(row) && approach(row) > info.m_restitutionVelocityThreshold;
+  const btScalar overlap = -p.getDistance(), parting_speed = parting(row);
+  const bool impact = -parting_speed > info.m_restitutionVelocityThreshold && !of_shared(row);
   if (impact && overlap < 0 && p.m_combinedRestitution > 0) row.m_rhs = off;
-  const btScalar quiet = impact ? overlap : std::min(overlap, impact_overlap(p));
-  if (quiet > negligible_overlap && row.m_rhsPenetration == 0) {
-    row.m_rhsPenetration = info.m_erp2 * quiet / info.m_timeStep * row.m_jacDiagABInv;
-    row.m_rhs -= row.m_rhsPenetration;
+  const btScalar left = impact ? overlap : std::min(overlap, impact_overlap(p));
+  if (left > negligible_overlap) {
+    const btScalar rebound = impact ? -p.m_combinedRestitution * parting_speed : std::max(parting_speed, btScalar(0));
+    take_back(row, info.m_erp2 * left / info.m_timeStep, rebound);
   }
-  set_impact_overlap(p, quiet > negligible_overlap ? (1 - info.m_erp2) * quiet : btScalar(0));
-  overlaps_to_split_ |= row.m_rhsPenetration != 0;
+  set_impact_overlap(p, left > negligible_overlap ? (1 - info.m_erp2) * left : btScalar(0));
+  if (row.m_rhsPenetration != 0) split_rows_.push_back(&row);
 }
 
-void ContactSolver::solveGroupCacheFriendlySplitImpulseIterations(
-    btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds, int manifold_count,
-    btTypedConstraint** constraints, int constraint_count, const btContactSolverInfo& info, btIDebugDraw* draw) {
-  if (!overlaps_to_split_) return;
-  btSequentialImpulseConstraintSolver::solveGroupCacheFriendlySplitImpulseIterations(
-      bodies, body_count, manifolds, manifold_count, constraints, constraint_count, info, draw);
+/// Leaves to the split impulse what the rebound itself does not take back of an impact's overlap.
+void ContactSolver::take_back(btSolverConstraint& row, btScalar speed, btScalar rebound) {
+  if (row.m_rhsPenetration == 0) {  // Bullet itself splits deep overlaps
+    row.m_rhsPenetration = speed * row.m_jacDiagABInv;
+    row.m_rhs -= row.m_rhsPenetration;
+  }
+  row.m_rhsPenetration = std::max(row.m_rhsPenetration - rebound * row.m_jacDiagABInv, btScalar(0));
+}
+
+void ContactSolver::prepare_friction(const btSolverConstraint& normal, btScalar warm_start) {
+  const btManifoldPoint& p = *static_cast<const btManifoldPoint*>(normal.m_originalContactPoint);
+  btSolverConstraint* tangents = &m_tmpSolverContactFrictionConstraintPool[normal.m_frictionIndex];
+  share_inverse_mass(tangents[0], tangents[1]);
+  if (normal.m_rhs == off) return;
+  btSolverBody& a = m_tmpSolverBodyPool[normal.m_solverBodyIdA];
+  btSolverBody& b = m_tmpSolverBodyPool[normal.m_solverBodyIdB];
+  apply(tangents[0], a, b, warm_start * p.m_appliedImpulseLateral1);
+  apply(tangents[1], a, b, warm_start * p.m_appliedImpulseLateral2);
+}
+
+void ContactSolver::solveGroupCacheFriendlySplitImpulseIterations(btCollisionObject**, int, btPersistentManifold**, int,
+                                                                  btTypedConstraint**, int,
+                                                                  const btContactSolverInfo& info, btIDebugDraw*) {
+  for (int iteration = 0; iteration < info.m_numIterations; ++iteration)
+    for (const btSolverConstraint* row : split_rows_)
+      resolveSplitPenetrationSIMD(m_tmpSolverBodyPool[row->m_solverBodyIdA], m_tmpSolverBodyPool[row->m_solverBodyIdB],
+                                  *row);
 }
 
 btScalar ContactSolver::solve_normal(btSolverConstraint& row) {
@@ -92,13 +130,16 @@ btScalar ContactSolver::solve_normal(btSolverConstraint& row) {
   return impulse * impulse;
 }
 
-btScalar ContactSolver::solve_friction(const btSolverConstraint& normal, btSolverConstraint* tangents) {
-  btSolverConstraint &s = tangents[0], &t = tangents[1];
+btScalar ContactSolver::solve_friction(const btSolverConstraint& normal) {
+  btSolverConstraint& s = m_tmpSolverContactFrictionConstraintPool[normal.m_frictionIndex];
+  btSolverConstraint& t = m_tmpSolverContactFrictionConstraintPool[normal.m_frictionIndex + 1];
+  const btScalar limit = normal.m_friction * normal.m_appliedImpulse;
+  if (limit == 0 && s.m_appliedImpulse == 0 && t.m_appliedImpulse == 0) return 0;
   btSolverBody& a = m_tmpSolverBodyPool[s.m_solverBodyIdA];
   btSolverBody& b = m_tmpSolverBodyPool[s.m_solverBodyIdB];
   btScalar p = s.m_appliedImpulse + s.m_rhs - change(s, a, b) * s.m_jacDiagABInv;
   btScalar q = t.m_appliedImpulse + t.m_rhs - change(t, a, b) * t.m_jacDiagABInv;
-  const btScalar limit = normal.m_friction * normal.m_appliedImpulse, size2 = p * p + q * q;
+  const btScalar size2 = p * p + q * q;
   if (size2 > limit * limit) {
     const btScalar share = limit / btSqrt(size2);
     p *= share;
@@ -114,12 +155,10 @@ btScalar ContactSolver::solve_friction(const btSolverConstraint& normal, btSolve
 btScalar ContactSolver::solveSingleIteration(int, btCollisionObject**, int, btPersistentManifold**, int,
                                              btTypedConstraint**, int, const btContactSolverInfo& info, btIDebugDraw*) {
   btConstraintArray& normals = m_tmpSolverContactConstraintPool;
-  btConstraintArray& tangents = m_tmpSolverContactFrictionConstraintPool;
   btScalar residual = 0;
   for (int i = 0; i < normals.size(); ++i) residual = std::max(residual, solve_normal(normals[i]));
   if (info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS)
-    for (int i = 0; i < normals.size(); ++i)
-      residual = std::max(residual, solve_friction(normals[i], &tangents[normals[i].m_frictionIndex]));
+    for (int i = 0; i < normals.size(); ++i) residual = std::max(residual, solve_friction(normals[i]));
   return residual;
 }
 

@@ -64,6 +64,61 @@ INSTANTIATE_TEST_SUITE_P(Table, HeadOnImpact, testing::Combine(testing::ValuesIn
                                               std::get<1>(test.param));
                          });
 
+struct Target {
+  const char* name;
+  std::string_view boundary;  ///< a surface through the origin, facing up; none: an equal sphere that flies towards
+};
+
+void PrintTo(const Target& t, std::ostream* out) { *out << t.name; }
+
+const Target targets[] = {
+    {"plane", "{plane: {point: [0, 0, 0], normal: [0, 0, 1]}}"},
+    {"box", "{plate: {size: [2, 2, 1], at: [0, 0, -0.5]}}"},
+    {"mesh", "{mesh: {vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], triangles: [[0, 1, 2], [0, 2, 3]]}}"},
+    {"sphere", ""},
+};
+
+struct Rebound {
+  double along = 0, across = 0;  ///< speeds after the impact, as parts of the speed before
+};
+
+/// A sphere of radius 0.1 m comes straight down at 1 m/s and is `gap` away; after the impact it flies on for 0.2 s.
+Rebound rebound(const Target& target, double e, double dt, double gap) {
+  const bool pair = target.boundary.empty();
+  const std::string other =
+      pair ? fmt::format(", {{id: 2, at: [0.03, 0.02, {}], velocity: [0, 0, 1]}}", -0.1 - gap) : "";
+  ModelRun run(scene_of(spheres(fmt::format("{{id: 1, at: [0.03, 0.02, {}], velocity: [0, 0, -1]}}", 0.1 + gap) + other,
+                                fmt::format("restitution: {}", e),
+                                weightless + (pair ? "" : fmt::format("boundaries: [{}]\n", target.boundary))),
+                        {set("dt", dt)}));
+  run.steps(std::lround((gap + 0.2) / dt));
+  return {run.velocity(1).z(), run.velocity(1).head<2>().norm()};
+}
+
+class Restitution : public testing::TestWithParam<std::tuple<Target, double, double>> {};
+
+/// v' = -e v, whatever the step and whatever is hit, at 7 phases of the step.
+TEST_P(Restitution, IsReached) {
+  const auto& [target, e, dt] = GetParam();
+  Rebound worst;
+  for (int phase = 0; phase < 7; ++phase) {
+    const Rebound r = rebound(target, e, dt, 0.05 + dt * phase / 7);
+    worst.along = std::max(worst.along, std::abs(r.along - e));
+    worst.across = std::max(worst.across, r.across);
+  }
+  RecordProperty("along", fmt::format("{:.1e}", worst.along));
+  EXPECT_LT(worst.along, 1e-4);
+  EXPECT_LT(worst.across, 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, Restitution,
+                         testing::Combine(testing::ValuesIn(targets), testing::Values(0.0, 0.5, 1.0),
+                                          testing::Values(1.0 / 60, 1.0 / 240, 1e-3, 1e-4)),
+                         [](const auto& test) {
+                           return fmt::format("{}_e{:.0f}_dt{:.0f}us", std::get<0>(test.param).name,
+                                              100 * std::get<1>(test.param), 1e6 * std::get<2>(test.param));
+                         });
+
 struct Oblique {
   double friction, tangential, spin;  ///< expected v_t' and |w R|
 };
