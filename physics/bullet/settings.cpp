@@ -18,7 +18,7 @@ int solver_mode(const Features& features) {
   // Start from the last step's impulses: small steps with few iterations rely on it.
   int mode = SOLVER_SIMD | SOLVER_USE_WARMSTARTING;
   // Bullet's default friction acts along one direction that follows the velocity: 10 % too much run-out in a collapsing
-  // column. Two fixed directions, cached with the contact, bring it to the soft-sphere answer.
+  // column. With two directions, cached with the contact, the solver keeps friction to a round cone.
   if (features.friction)
     mode |= SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING |
             SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
