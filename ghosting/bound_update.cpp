@@ -12,8 +12,6 @@ constexpr double drop_factor =
 
 std::array<double, 3> point(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-Twist sum(const Twist& a, const Twist& b) { return {a.linear + b.linear, a.angular + b.angular}; }
-
 }  // namespace
 
 void SubModel::bound_update(const runtime::Round& round, runtime::Port& port) {
@@ -96,7 +94,7 @@ void SubModel::update_shared() {
       shared.element = element;
       shared.member = static_cast<std::uint32_t>(member_index(element));
       shared.state = world_->state(slots_[shared.member]);
-      shared.copies = {{id_, {}}};
+      shared.copies = {Copy::in(id_)};
     }
     std::vector<SubModelId> worlds{id_};
     for (; at != wanted.end() && at->first == element; ++at) worlds.push_back(at->second);
@@ -114,7 +112,7 @@ void SubModel::start_shared(SharedElement& shared) {
   const Slot slot = slots_[shared.member];
   const auto own = std::find_if(shared.copies.begin(), shared.copies.end(), [&](auto& c) { return c.world == id_; });
   world_->set_mass(slot, mass_[shared.member] * context_.coupling->mass_share(shared.copies.size()));
-  world_->set_state(slot, {shared.state.pose, sum(shared.state.twist, own->offset)});
+  world_->set_state(slot, {shared.state.pose, shared.state.twist + own->offset});
   shared.start = {{world_->position(slot), shared.state.pose.orientation}, shared.state.twist};
 }
 
@@ -133,9 +131,8 @@ void SubModel::send_ghosts(const OwnerLink& link, runtime::Port& port) {
     const SharedElement& shared = *find_shared(e);
     const auto copy =
         std::find_if(shared.copies.begin(), shared.copies.end(), [&](auto& c) { return c.world == link.host; });
-    bound_message_.ghosts.push_back({e,
-                                     static_cast<std::uint32_t>(shared.copies.size()),
-                                     {shared.state.pose, sum(shared.state.twist, copy->offset)}});
+    bound_message_.ghosts.push_back(
+        {e, static_cast<std::uint32_t>(shared.copies.size()), {shared.state.pose, shared.state.twist + copy->offset}});
   }
   bound_message_.broken_bonds = newly_broken_;
   bound_message_.write(bytes_);

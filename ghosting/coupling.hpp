@@ -14,7 +14,11 @@ namespace moraine {
 /// One copy of a shared element: the real one in its owner's world or a ghost in a host's world.
 struct Copy {
   SubModelId world = 0;
-  Twist offset;  ///< of the copy's velocity from the element's at the start of a substep: the load it carries
+  Twist offset;   ///< of the copy's velocity from the element's at the start of a substep: the load it carries
+  Twist lasting;  ///< slow mean of the offset: the load it has carried for long
+
+  /// A copy that carries nothing yet.
+  static Copy in(SubModelId world) { return {world, {}, {}}; }
 };
 
 /// What a copy did in one substep.

@@ -33,7 +33,7 @@ class Mirror final : public Coupling {
 
   void change_copies(SharedElement& shared, std::span<const SubModelId> worlds, SubModelId) const override {
     shared.copies.clear();
-    for (const SubModelId w : worlds) shared.copies.push_back({w, {}});
+    for (const SubModelId w : worlds) shared.copies.push_back(Copy::in(w));
   }
 };
 

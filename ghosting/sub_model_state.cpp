@@ -52,7 +52,7 @@ void io(Io& s, T& x) {
   } else if constexpr (std::is_same_v<U, Bounds>) {
     all(s, x.min, x.max);
   } else if constexpr (std::is_same_v<U, Copy>) {
-    all(s, x.world, x.offset);
+    all(s, x.world, x.offset, x.lasting);
   } else if constexpr (std::is_same_v<U, SharedElement>) {
     all(s, x.element, x.member, x.state, x.copies, x.start);
   } else if constexpr (std::is_same_v<U, CrossBond>) {

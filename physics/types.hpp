@@ -26,7 +26,15 @@ struct Pose {
 struct Twist {
   Vec3 linear = Vec3::Zero();
   Vec3 angular = Vec3::Zero();
+
+  Twist& operator+=(const Twist& o) {
+    linear += o.linear;
+    angular += o.angular;
+    return *this;
+  }
 };
+inline Twist operator+(Twist a, const Twist& b) { return a += b; }
+inline Twist operator*(double s, const Twist& t) { return {s * t.linear, s * t.angular}; }
 
 /// Linear [N s] and angular [N m s] impulse about a body's centre of mass.
 struct Impulse {

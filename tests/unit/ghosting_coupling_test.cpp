@@ -59,7 +59,7 @@ TEST(Consensus, MeanHasTheMomentumOfTheCopies) {
   const auto consensus = make_consensus();
   SharedElement shared;
   shared.start.pose.position = Vec3(5, 6, 7);
-  shared.copies = {{0, {}}, {2, {}}, {3, {}}};
+  shared.copies = {Copy::in(0), Copy::in(2), Copy::in(3)};
   const std::vector<CopyMotion> motions{dice.motion(), dice.motion(), dice.motion()};
   const double disagreement = consensus->combine(shared, motions, {2, Vec3::Zero(), 0.85});
   const double share = consensus->mass_share(3);
@@ -79,7 +79,7 @@ TEST(Consensus, MeanHasTheMomentumOfTheCopies) {
 TEST(Consensus, CopiesThatAgreeCarryNothing) {
   Dice dice(2);
   SharedElement shared;
-  shared.copies = {{0, {}}, {1, {}}};
+  shared.copies = {Copy::in(0), Copy::in(1)};
   const CopyMotion motion = dice.motion();
   const std::vector<CopyMotion> motions{motion, motion};
   EXPECT_EQ(make_consensus()->combine(shared, motions, {}), 0);
@@ -93,7 +93,7 @@ TEST(Consensus, LoadThatOneCopyCarriesIsPassedOn) {
   const auto consensus = make_consensus();
   const Vec3 gravity_step(0, 0, -0.1);
   SharedElement shared;
-  shared.copies = {{0, {}}, {1, {}}};
+  shared.copies = {Copy::in(0), Copy::in(1)};
   for (int k = 0; k < 200; ++k) {
     CopyMotion held, falls;  // copy 0 stands on something, copy 1 feels gravity and what it carries only
     falls.twist.linear = shared.state.twist.linear + shared.copies[1].offset.linear + gravity_step;
@@ -110,7 +110,7 @@ TEST(Consensus, OffsetsSumToNothingWhateverCopiesComeAndGo) {
     const auto consensus = make_consensus();
     const auto owner = static_cast<SubModelId>(dice.in(0, 9));
     SharedElement shared;
-    shared.copies = {{owner, {}}};
+    shared.copies = {Copy::in(owner)};
     for (int k = 0; k < 40; ++k) {
       const std::vector<SubModelId> worlds = pick(dice, owner);
       consensus->change_copies(shared, worlds, owner);
@@ -128,7 +128,7 @@ TEST(Consensus, OffsetsSumToNothingWhateverCopiesComeAndGo) {
 
 TEST(Consensus, NewCopiesStartWithNothingAndOldOnesKeepTheirLoad) {
   SharedElement shared;
-  shared.copies = {{1, {Vec3(1, 0, 0), Vec3(0, 2, 0)}}, {4, {Vec3(-1, 0, 0), Vec3(0, -2, 0)}}};
+  shared.copies = {{1, {Vec3(1, 0, 0), Vec3(0, 2, 0)}, {}}, {4, {Vec3(-1, 0, 0), Vec3(0, -2, 0)}, {}}};
   const auto consensus = make_consensus();
   consensus->change_copies(shared, std::vector<SubModelId>{1, 2, 4}, 1);
   EXPECT_EQ(shared.copies[1].offset.linear, Vec3::Zero());

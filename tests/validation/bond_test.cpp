@@ -123,11 +123,11 @@ double sag(const std::vector<ElementState>& states) {
   return sum / count;
 }
 
-/// Sag averaged over the last 4 s of 12, when the beam still swings a little.
+/// Sag averaged over the last 4 s of 20, when the beam has nearly come to rest.
 double mean_sag(int parts) {
   ModelRun run(example("bonded_beam", {set("run.sub_models", parts)}));
   const double start = sag(run.model().states());
-  run.steps(8 * 120);
+  run.steps(16 * 120);
   double sum = 0;
   for (int k = 0; k < 4 * 120; ++k) {
     run.steps(1);
@@ -139,12 +139,11 @@ double mean_sag(int parts) {
   return mean;
 }
 
-/// A cut should not soften a beam by more than 1 %. Measured: the one in three sags by 0.491 m here and 0.485 m after
-/// 40 s, the whole one by 0.458 m. Spheres of the cut one spin, and ever faster.
+/// A cut may change the sag by 1 % at the most.
 TEST(BondedBeam, HangsAlikeWholeAndCutInThree) {
   const double whole = mean_sag(1);
   EXPECT_GT(whole, 0.01);
-  EXPECT_NEAR(mean_sag(3), whole, 0.1 * whole);
+  EXPECT_NEAR(mean_sag(3), whole, 0.01 * whole);
 }
 
 }  // namespace
