@@ -22,6 +22,10 @@ namespace moraine::bullet {
 ///
 /// Tangential impulses start from those of the last step, as normal ones do; Bullet 3.24 lets them start from none.
 ///
+/// Contacts of elements that live in several worlds are left as Bullet has them, but for the cone: such elements enter
+/// the step with the impulses that the coupling carries, which look like approach and already hold part of the
+/// friction.
+///
 /// Joints are not solved; there are none.
 class ContactSolver : public btSequentialImpulseConstraintSolver {
  protected:
