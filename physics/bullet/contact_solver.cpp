@@ -56,14 +56,19 @@ void share_inverse_mass(btSolverConstraint& s, btSolverConstraint& t) {
 
 }  // namespace
 
+/// Each manifold's rows are prepared while they are still in the cache.
 void ContactSolver::convertContacts(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) {
-  btSequentialImpulseConstraintSolver::convertContacts(manifolds, count, info);
-  split_rows_.clear();
   const bool rough = info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS;
-  for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); ++i) {
-    btSolverConstraint& normal = m_tmpSolverContactConstraintPool[i];
-    prepare_impact(normal, info);
-    if (rough) prepare_friction(normal, info.m_warmstartingFactor);
+  split_rows_.clear();
+  for (int i = 0; i < count; ++i) {
+    int row = m_tmpSolverContactConstraintPool.size();
+    convertContact(manifolds[i], info);
+    for (; row < m_tmpSolverContactConstraintPool.size(); ++row) {
+      btSolverConstraint& normal = m_tmpSolverContactConstraintPool[row];
+      prepare_impact(normal, info);
+      if (normal.m_rhsPenetration != 0) split_rows_.push_back(row);
+      if (rough) prepare_friction(normal, info.m_warmstartingFactor);
+    }
   }
 }
 
@@ -89,7 +94,6 @@ void ContactSolver::prepare_impact(btSolverConstraint& row, const btContactSolve
     take_back(row, info.m_erp2 * left / info.m_timeStep, rebound);
   }
   set_impact_overlap(p, left > negligible_overlap ? (1 - info.m_erp2) * left : btScalar(0));
-  if (row.m_rhsPenetration != 0) split_rows_.push_back(&row);
 }
 
 /// Leaves to the split impulse what the rebound itself does not take back of an impact's overlap.
@@ -116,9 +120,11 @@ void ContactSolver::solveGroupCacheFriendlySplitImpulseIterations(btCollisionObj
                                                                   btTypedConstraint**, int,
                                                                   const btContactSolverInfo& info, btIDebugDraw*) {
   for (int iteration = 0; iteration < info.m_numIterations; ++iteration)
-    for (const btSolverConstraint* row : split_rows_)
-      resolveSplitPenetrationSIMD(m_tmpSolverBodyPool[row->m_solverBodyIdA], m_tmpSolverBodyPool[row->m_solverBodyIdB],
-                                  *row);
+    for (const int i : split_rows_) {
+      const btSolverConstraint& row = m_tmpSolverContactConstraintPool[i];
+      resolveSplitPenetrationSIMD(m_tmpSolverBodyPool[row.m_solverBodyIdA], m_tmpSolverBodyPool[row.m_solverBodyIdB],
+                                  row);
+    }
 }
 
 btScalar ContactSolver::solve_normal(btSolverConstraint& row) {

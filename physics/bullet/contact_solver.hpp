@@ -47,7 +47,7 @@ class ContactSolver : public btSequentialImpulseConstraintSolver {
   btScalar solve_normal(btSolverConstraint& row);
   btScalar solve_friction(const btSolverConstraint& normal);
 
-  std::vector<const btSolverConstraint*> split_rows_;  ///< of this step: those with a split impulse
+  std::vector<int> split_rows_;  ///< of this step: those contact rows that have a split impulse
 };
 
 }  // namespace moraine::bullet
