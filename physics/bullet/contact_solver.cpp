@@ -109,7 +109,7 @@ void ContactSolver::prepare_friction(const btSolverConstraint& normal, btScalar 
   const btManifoldPoint& p = *static_cast<const btManifoldPoint*>(normal.m_originalContactPoint);
   btSolverConstraint* tangents = &m_tmpSolverContactFrictionConstraintPool[normal.m_frictionIndex];
   share_inverse_mass(tangents[0], tangents[1]);
-  if (normal.m_rhs == off || of_shared(normal)) return;
+  if (normal.m_rhs == off) return;
   btSolverBody& a = m_tmpSolverBodyPool[normal.m_solverBodyIdA];
   btSolverBody& b = m_tmpSolverBodyPool[normal.m_solverBodyIdB];
   apply(tangents[0], a, b, warm_start * p.m_appliedImpulseLateral1);
