@@ -28,16 +28,26 @@ class CellGrid {
   /// Calls visit(index) for every point in the 27 cells around p (cells clamped to the box).
   template <class Visit>
   void around(const Point& p, Visit&& visit) const {
-    const Cell low = clamped(p, -1), high = clamped(p, +1);
+    visit_cells(clamped(p, -1), clamped(p, +1), visit);
+  }
+
+  /// Calls visit(index) for every point in the cells that the box [low, high] touches; more than those in the box.
+  template <class Visit>
+  void in_box(const Point& low, const Point& high, Visit&& visit) const {
+    visit_cells(clamped(low, 0), clamped(high, 0), visit);
+  }
+
+ private:
+  using Cell = std::array<int, 3>;
+
+  template <class Visit>
+  void visit_cells(const Cell& low, const Cell& high, Visit&& visit) const {
     for (int z = low[2]; z <= high[2]; ++z)
       for (int y = low[1]; y <= high[1]; ++y) {
         const std::size_t row = (static_cast<std::size_t>(z) * size_[1] + y) * size_[0];
         for (std::uint32_t k = start_[row + low[0]]; k < start_[row + high[0] + 1]; ++k) visit(order_[k]);
       }
   }
-
- private:
-  using Cell = std::array<int, 3>;
 
   void measure(std::span<const Point> points, Real cell_size) {
     Point high{};
