@@ -17,15 +17,21 @@ struct Material {
   double density = 0;      ///< [kg/m^3]
   double friction = 0;     ///< Coulomb coefficient of the material against itself
   double restitution = 0;  ///< normal restitution of the material against itself, 0 .. 1
+  // For engines whose contacts are springs:
+  double rolling_friction = 0;  ///< torque / (normal force * radius), of the material against itself
+  double normal_stiffness = 0;  ///< of a contact with itself [N/m]; 0: the engine's default
+  double young = 0;             ///< modulus [Pa]; 0: contacts are linear springs
+  double poisson = 0.25;        ///< ratio; used with young
 };
 
 /// Values that hold for a pair of materials.
 struct PairLaw {
   double friction = 0;
   double restitution = 0;
+  double rolling_friction = 0;
 };
 
-/// Every pair's law; symmetric. Unless a scene states a pair, friction and restitution are the geometric means.
+/// Every pair's law; symmetric. Unless a scene states a pair, its values are the geometric means.
 class MaterialTable {
  public:
   std::vector<Material> materials;
