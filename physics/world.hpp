@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -79,6 +81,16 @@ struct Contact {
   Vec3 impulse = Vec3::Zero();  ///< on a, over the last step [N s]
 };
 
+/// What a contact remembers beyond the states of its bodies. It goes along when elements change worlds.
+struct ContactMemory {
+  ElementId a = 0;
+  std::uint32_t b = 0;  ///< the other element, or the boundary's index if with_boundary
+  bool with_boundary = false;
+  Vec3 normal = Vec3::Zero();   ///< with a boundary: unit, towards a; tells several contacts with one boundary apart
+  Vec3 sliding = Vec3::Zero();  ///< stretch of the tangential spring [m]
+  Vec3 rolling = Vec3::Zero();  ///< stretch of the rolling spring [m]
+};
+
 /// Deterministic counters of the work of the last step; never a clock.
 struct StepWork {
   std::uint64_t bodies = 0;
@@ -119,6 +131,12 @@ class World {
   virtual std::vector<Contact> contacts() const = 0;
   virtual StepWork work() const = 0;
 
+  /// What the contacts of this world's bodies remember, ghosts' included; nothing if the engine's contacts remember
+  /// nothing that matters elsewhere.
+  virtual std::vector<ContactMemory> contact_memory() const { return {}; }
+  /// Before the next step: contacts that began in other worlds go on here, if both bodies will be here by then.
+  virtual void remember(std::span<const ContactMemory>) {}
+
   /// Forgets whatever a saved world cannot carry. Called in every world at the same step, whether it is saved, moved or
   /// stays, so that all three continue alike.
   virtual void canonicalise() = 0;
@@ -126,6 +144,18 @@ class World {
   /// as this one would.
   virtual void save(std::vector<std::byte>& out) const = 0;
   virtual void load(std::span<const std::byte> in) = 0;
+};
+
+/// What copies of an element in other worlds are to an engine.
+enum class GhostKind : std::uint8_t {
+  partner,  ///< part of the element: what happens to it is joined with what happens to the real one
+  follower  ///< shows the owner's state; every world works out the same forces from the same states
+};
+
+/// The largest substep that an engine takes for a scene.
+struct StepLimit {
+  double substep = std::numeric_limits<double>::infinity();  ///< [s]
+  std::string reason;                                        ///< what sets it; empty: there is no limit
 };
 
 /// A row of the engine table.
@@ -137,6 +167,10 @@ struct Engine {
   /// Seconds per element-step of one world of n bodies, relative: what `auto` splitting weighs.
   double (*relative_cost)(double bodies);
   std::unique_ptr<World> (*make)(const WorldSettings&, const Vec3& origin);
+  GhostKind ghosts = GhostKind::partner;
+  /// When in a substep forces act, 0 .. 1: 0 at its start (semi-implicit Euler), 0.5 in the middle (Verlet).
+  double force_time = 0;
+  StepLimit (*step_limit)(const Scene&) = [](const Scene&) { return StepLimit{}; };
 };
 
 std::span<const Engine> engines();

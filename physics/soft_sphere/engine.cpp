@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/soft_sphere/engine.hpp"
+
+#include "physics/soft_sphere/step_limit.hpp"
+#include "physics/soft_sphere/world.hpp"
+
+namespace moraine::soft_sphere {
+namespace {
+
+bool supports(const Geometry& geometry) { return std::holds_alternative<Sphere>(geometry); }
+
+/// Measured; see docs/engines.md.
+double relative_cost(double bodies) { return 1 + 0.1 * std::log10(std::max(bodies, 1e4) / 1e4); }
+
+std::unique_ptr<World> make(const WorldSettings& settings, const Vec3&) {
+  return std::make_unique<SoftSphereWorld>(settings);
+}
+
+}  // namespace
+
+Engine engine() {
+  return {.name = "soft_sphere",
+          .help = "explicit DEM of spheres, float64: springs, dashpots, friction, rolling friction, bonds",
+          .precision = "float64",
+          .supports = supports,
+          .relative_cost = relative_cost,
+          .make = make,
+          .ghosts = GhostKind::follower,
+          .force_time = 0.5,
+          .step_limit = step_limit};
+}
+
+}  // namespace moraine::soft_sphere
