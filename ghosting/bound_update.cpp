@@ -17,8 +17,7 @@ std::array<double, 3> point(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 void SubModel::bound_update(const runtime::Round& round, runtime::Port& port) {
   if (!(round.opening() && interrupted_)) {
     update_bounds();
-    for (OwnerLink& link : owner_links_) choose_hosted(link);
-    update_shared();
+    choose_ghosts();
   }
   for (SharedElement& shared : shared_) start_shared(shared);
   for (const OwnerLink& link : owner_links_) send_ghosts(link, port);
@@ -32,6 +31,17 @@ void SubModel::update_bounds() {
     speed2 = std::max(speed2, motions_[i].twist.linear.squaredNorm());
   }
   max_speed_ = std::sqrt(speed2);
+}
+
+/// Where the host told its border; the others' ghosts stay.
+void SubModel::choose_ghosts() {
+  bool any = false;
+  for (OwnerLink& link : owner_links_) {
+    if (link.border_is_new) choose_hosted(link);
+    any = any || link.border_is_new;
+    link.border_is_new = false;
+  }
+  if (any) update_shared();
 }
 
 /// By distance, with memory, and by bond.
@@ -108,16 +118,24 @@ void SubModel::update_shared() {
   for (; old != before.end(); ++old) unshare(*old);
 }
 
+ElementState SubModel::start_of(const SharedElement& shared, const Copy& copy) const {
+  if (context_.followers()) return shared.state;
+  return {shared.state.pose, shared.state.twist + copy.offset};
+}
+
+/// The real copy of an element with followers needs no telling.
 void SubModel::start_shared(SharedElement& shared) {
+  if (context_.followers()) return;
   const Slot slot = slots_[shared.member];
   const auto own = std::find_if(shared.copies.begin(), shared.copies.end(), [&](auto& c) { return c.world == id_; });
   world_->set_mass(slot, mass_[shared.member] * context_.coupling->mass_share(shared.copies.size()));
-  world_->set_state(slot, {shared.state.pose, shared.state.twist + own->offset});
+  world_->set_state(slot, start_of(shared, *own));
   shared.start = {{world_->position(slot), shared.state.pose.orientation}, shared.state.twist};
 }
 
 /// The last ghost is gone: what all copies carried sums to nothing, so the element just goes on.
 void SubModel::unshare(const SharedElement& shared) {
+  if (context_.followers()) return;
   const Slot slot = slots_[shared.member];
   world_->set_mass(slot, mass_[shared.member]);
   world_->set_state(slot, shared.state);
@@ -131,8 +149,7 @@ void SubModel::send_ghosts(const OwnerLink& link, runtime::Port& port) {
     const SharedElement& shared = *find_shared(e);
     const auto copy =
         std::find_if(shared.copies.begin(), shared.copies.end(), [&](auto& c) { return c.world == link.host; });
-    bound_message_.ghosts.push_back(
-        {e, static_cast<std::uint32_t>(shared.copies.size()), {shared.state.pose, shared.state.twist + copy->offset}});
+    bound_message_.ghosts.push_back({e, static_cast<std::uint32_t>(shared.copies.size()), start_of(shared, *copy)});
   }
   bound_message_.broken_bonds = newly_broken_;
   bound_message_.write(bytes_);

@@ -53,7 +53,7 @@ void verify_invariants(const CoupledModel& model) {
   verify_owned_once(model);
   for (std::size_t p = 0; p < model.size(); ++p) {
     verify_ghosts(model, model.part(p));
-    verify_shared(model.part(p), model.scene().run.coupling == "consensus");
+    verify_shared(model.part(p), model.coupling().name == "consensus");
   }
 }
 

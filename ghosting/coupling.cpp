@@ -17,16 +17,26 @@ std::span<const CouplingRow> couplings() {
                   make_consensus},
       CouplingRow{"mirror", "full-mass ghosts in both worlds that receive their parent's last forces (2009; unstable)",
                   make_mirror},
+      CouplingRow{"exact",
+                  "ghosts show their owner's state; for engines whose forces follow from it: bit for bit uncut",
+                  make_exact, GhostKind::follower, 0.2},
   };
   return table;
 }
 
-std::unique_ptr<Coupling> make_coupling(std::string_view name) {
+const CouplingRow& find_coupling(std::string_view name, const Engine& engine) {
+  std::string known, fitting;
+  for (const CouplingRow& row : couplings()) {
+    const bool fits = row.ghosts == engine.ghosts;
+    if (fits && (name == row.name || name == "auto")) return row;
+    if (fits) fitting += fmt::format("{}{}", fitting.empty() ? "" : ", ", row.name);
+    known += fmt::format("\n  {:<12} {}", row.name, row.help);
+  }
   for (const CouplingRow& row : couplings())
-    if (row.name == name) return row.make();
-  std::string known;
-  for (const CouplingRow& row : couplings()) known += fmt::format("\n  {:<12} {}", row.name, row.help);
-  throw InputError(fmt::format("unknown coupling '{}', expected one of:{}", name, known));
+    if (name == row.name)
+      throw InputError(
+          fmt::format("coupling {} does not fit engine {}, expected auto or one of: {}", name, engine.name, fitting));
+  throw InputError(fmt::format("unknown coupling '{}', expected auto or one of:{}", name, known));
 }
 
 Quat rotated(const Quat& q, const Vec3& rotation) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "physics/types.hpp"
+#include "physics/world.hpp"
 
 namespace moraine {
 
@@ -35,6 +36,7 @@ struct SharedElement {
   ElementState state;         ///< the one canonical state
   std::vector<Copy> copies;   ///< ascending world; includes the real one
   ElementState start;         ///< of the real copy, as its world holds it in this substep
+  ElementState end;           ///< of the real copy after the substep
 };
 
 /// What a coupling may use besides the element itself.
@@ -52,8 +54,8 @@ class Coupling {
   virtual bool hosts(SubModelId host, SubModelId owner) const = 0;
   /// Share of the element's mass and inertia that each of its copies has.
   virtual double mass_share(std::size_t copies) const = 0;
-  /// Turns what the copies did (one motion per copy) into the element's new state and the copies' new offsets.
-  /// Returns the squared speed by which the copies disagreed, summed over copies [m^2/s^2].
+  /// Turns what the copies did (one motion per copy; none if ghosts are followers) into the element's new state and the
+  /// copies' new offsets. Returns the squared speed by which the copies disagreed, summed over copies [m^2/s^2].
   virtual double combine(SharedElement& shared, std::span<const CopyMotion> motions,
                          const CouplingContext& context) const = 0;
   /// The set of worlds changes (both lists ascending): adjusts the copies, keeping the sum of what they carry.
@@ -64,13 +66,17 @@ struct CouplingRow {
   std::string_view name;
   std::string_view help;
   std::unique_ptr<Coupling> (*make)();
+  GhostKind ghosts = GhostKind::partner;  ///< engines of this kind only
+  double skin = 0.05;                     ///< unless the scene states one [element diameters]
 };
 
 std::span<const CouplingRow> couplings();
-/// Errors: InputError that prints the table.
-std::unique_ptr<Coupling> make_coupling(std::string_view name);
+/// The row of this name; of "auto", the first that fits the engine.
+/// Errors: InputError that prints the table; one that names what fits if the named one does not.
+const CouplingRow& find_coupling(std::string_view name, const Engine& engine);
 
 std::unique_ptr<Coupling> make_consensus();
+std::unique_ptr<Coupling> make_exact();
 std::unique_ptr<Coupling> make_mirror();
 
 /// Rotates an orientation by a rotation vector given in the world frame.

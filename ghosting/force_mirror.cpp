@@ -17,6 +17,7 @@ void SubModel::force_mirror(const runtime::Round& round, runtime::Port& port) {
 
 void SubModel::receive_results(OwnerLink& link, std::span<const std::byte> bytes) {
   step_message_.read(bytes);
+  link.border_is_new = step_message_.border_is_new;
   std::swap(link.border, step_message_.border);
   std::swap(link.results, step_message_.results);
   note_broken(step_message_.broken_bonds);
@@ -31,13 +32,11 @@ void SubModel::forget_bonds(std::span<const std::uint32_t> broken) {
 }
 
 CopyMotion SubModel::own_motion(const SharedElement& shared) const {
-  const ElementState end = world_->state(slots_[shared.member]);
-  return {end.pose.position - shared.start.pose.position,
-          rotation_between(shared.start.pose.orientation, end.pose.orientation), end.twist};
+  return {shared.end.pose.position - shared.start.pose.position,
+          rotation_between(shared.start.pose.orientation, shared.end.pose.orientation), shared.end.twist};
 }
 
-void SubModel::combine(SharedElement& shared) {
-  copy_motions_.clear();
+void SubModel::collect_motions(const SharedElement& shared) {
   for (const Copy& copy : shared.copies) {
     if (copy.world == id_) {
       copy_motions_.push_back(own_motion(shared));
@@ -51,6 +50,12 @@ void SubModel::combine(SharedElement& shared) {
       throw std::logic_error("a ghost did not report to its owner");
     copy_motions_.push_back(at->motion);
   }
+}
+
+void SubModel::combine(SharedElement& shared) {
+  shared.end = world_->state(slots_[shared.member]);
+  copy_motions_.clear();
+  if (!context_.followers()) collect_motions(shared);
   const CouplingContext context{id_, context_.scene->gravity * context_.world.substep,
                                 context_.scene->run.coupling_leak};
   disagreement_ += context_.coupling->combine(shared, copy_motions_, context);

@@ -82,6 +82,7 @@ void StepMessage::write(std::vector<std::byte>& out) const {
   out.clear();
   ByteWriter w(out);
   put_all<WireResult>(w, results);
+  w.put(static_cast<std::uint8_t>(border_is_new));
   put_all<WireBorder>(w, border);
   w.put_all(std::span<const std::uint32_t>(broken_bonds));
 }
@@ -89,6 +90,7 @@ void StepMessage::write(std::vector<std::byte>& out) const {
 void StepMessage::read(std::span<const std::byte> in) {
   ByteReader r(in);
   get_all<WireResult>(r, results);
+  border_is_new = r.get<std::uint8_t>() != 0;
   get_all<WireBorder>(r, border);
   r.get_all(broken_bonds);
 }

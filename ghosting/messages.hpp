@@ -27,6 +27,7 @@ struct BorderElement {
 /// Host to owner.
 struct StepMessage {
   std::vector<GhostResult> results;         ///< ascending element
+  bool border_is_new = true;                ///< if not, ghosts stay as they are
   std::vector<BorderElement> border;        ///< ascending element
   std::vector<std::uint32_t> broken_bonds;  ///< ascending
 

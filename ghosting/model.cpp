@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
 
 #include "ghosting/auto_count.hpp"
 #include "ghosting/check.hpp"
@@ -23,6 +24,22 @@ void check_shapes(const Scene& scene, const Engine& engine) {
     if (!engine.supports(scene.shapes[e.shape].geometry))
       throw InputError(
           fmt::format("{}: element {} has a shape that engine {} cannot do", scene.source, e.id, engine.name));
+}
+
+void check_step(const Scene& scene, const Engine& engine) {
+  const StepLimit limit = engine.step_limit(scene);
+  if (scene.time.substep() <= limit.substep) return;
+  throw InputError(
+      fmt::format("{}: a substep of {:.4g} s is too long for engine {}: the limit is {:.4g} s, set by {}; use "
+                  "a smaller time.dt or at least {:.0f} substeps",
+                  scene.source, scene.time.substep(), engine.name, limit.substep, limit.reason,
+                  std::ceil(scene.time.dt / limit.substep)));
+}
+
+/// Followers must be there before they are needed: see SubModel::borders_due.
+double follower_speed(const ModelContext& context) {
+  if (!context.followers()) return std::numeric_limits<double>::infinity();
+  return context.skin / (8 * context.world.substep);
 }
 
 std::size_t part_count(const Scene& scene, const Engine& engine, const Limits& limits) {
@@ -107,28 +124,32 @@ Limits find_limits(std::string_view profile) {
   throw InputError(fmt::format("unknown engine profile '{}', expected one of: default, physx", profile));
 }
 
-CoupledModel::CoupledModel(const Scene& scene) : coupling_(make_coupling(scene.run.coupling)) {
+CoupledModel::CoupledModel(const Scene& scene) {
   context_.scene = &scene;
   context_.engine = &find_engine(scene.run.engine);
+  coupling_row_ = &find_coupling(scene.run.coupling, *context_.engine);
+  coupling_ = coupling_row_->make();
   context_.coupling = coupling_.get();
   context_.world = world_settings(scene);
   for (const Bond& b : scene.bonds)
     context_.bond_ends.push_back({element_index(scene, b.a), element_index(scene, b.b)});
-  context_.skin = scene.run.skin * context_.world.length_unit;
-  context_.speed_limit = runaway_speed(scene);
+  context_.skin = (scene.run.skin > 0 ? scene.run.skin : coupling_row_->skin) * context_.world.length_unit;
+  context_.speed_limit = std::min(runaway_speed(scene), follower_speed(context_));
   check_shapes(scene, *context_.engine);
+  check_step(scene, *context_.engine);
   parts_ = part_count(scene, *context_.engine, context_.world.limits);
   split_ = &find_split(scene.run.split, scene, parts_);
   std::vector<ElementState> states;
   for (const Element& e : scene.elements) states.push_back(e.state);
-  cut(states);
+  cut(states, {});
   for (const auto& part : sub_models_) opening_ledger_ += part->ledger();
 }
 
 CoupledModel::~CoupledModel() = default;
 
-/// Makes all sub-models from the elements' states alone; used at the start and whenever membership is cut again.
-void CoupledModel::cut(std::span<const ElementState> states) {
+/// Makes all sub-models from the elements' states and what their contacts remember; used at the start and whenever
+/// membership is cut again.
+void CoupledModel::cut(std::span<const ElementState> states, std::span<const ContactMemory> memory) {
   std::vector<Vec3> positions;
   for (const ElementState& s : states) positions.push_back(s.pose.position);
   owners_ = split_->split({positions, scene().gravity, parts_});
@@ -138,14 +159,42 @@ void CoupledModel::cut(std::span<const ElementState> states) {
     const auto [first, second] = context_.bond_ends[b];
     if (owners_[first] == owners_[second]) bonds[owners_[first]].push_back(b);
   }
+  const std::vector<std::vector<ContactMemory>> remembered = by_part(memory);
   sub_models_.clear();
   for (SubModelId id = 0; id < parts_; ++id) {
     std::vector<ElementState> own;
     for (const std::uint32_t e : members[id]) own.push_back(states[e]);
-    sub_models_.push_back(std::make_unique<SubModel>(context_, id, std::move(members[id]), own, bonds[id]));
+    sub_models_.push_back(
+        std::make_unique<SubModel>(context_, id, std::move(members[id]), own, bonds[id], remembered[id]));
   }
   share_after_cut_ = -1;
   rounds_at_cut_ = rounds_done_;
+}
+
+/// Of every contact once, ascending; those across a cut are known on both sides.
+std::vector<ContactMemory> CoupledModel::contact_memory() const {
+  std::vector<ContactMemory> all;
+  for (const auto& part : sub_models_) {
+    const std::vector<ContactMemory> own = part->world().contact_memory();
+    all.insert(all.end(), own.begin(), own.end());
+  }
+  const auto key = [](const ContactMemory& m) { return std::tuple(m.a, m.with_boundary, m.b); };
+  std::stable_sort(all.begin(), all.end(), [&](auto& a, auto& b) { return key(a) < key(b); });
+  const auto same_pair = [&](auto& a, auto& b) { return !a.with_boundary && key(a) == key(b); };
+  all.erase(std::unique(all.begin(), all.end(), same_pair), all.end());
+  return all;
+}
+
+/// What the owners of either element need to know.
+std::vector<std::vector<ContactMemory>> CoupledModel::by_part(std::span<const ContactMemory> memory) const {
+  std::vector<std::vector<ContactMemory>> out(parts_);
+  for (const ContactMemory& m : memory) {
+    const SubModelId first = owners_[element_index(scene(), m.a)];
+    const SubModelId second = m.with_boundary ? first : owners_[element_index(scene(), m.b)];
+    out[first].push_back(m);
+    if (second != first) out[second].push_back(m);
+  }
+  return out;
 }
 
 std::vector<std::uint32_t> CoupledModel::alive_bonds() const {
@@ -174,8 +223,9 @@ void CoupledModel::open_epoch() {
   check_invariants(*this);
   if (should_recut()) {
     const std::vector<ElementState> now = states();
+    const std::vector<ContactMemory> memory = contact_memory();
     take_over_accounts();
-    cut(now);
+    cut(now, memory);
     ++closed_.recuts;
   }
   for (auto& part : sub_models_) part->canonicalise();

@@ -45,6 +45,7 @@ class CoupledModel final : public runtime::Model {
 
   const Scene& scene() const { return *context_.scene; }
   const SplitRow& split() const { return *split_; }
+  const CouplingRow& coupling() const { return *coupling_row_; }
   const SubModel& part(std::size_t i) const { return *sub_models_[i]; }
   /// Canonical state of every element, ascending id.
   std::vector<ElementState> states() const;
@@ -56,7 +57,9 @@ class CoupledModel final : public runtime::Model {
   OverlapStatistics overlaps() const;
 
  private:
-  void cut(std::span<const ElementState> states);
+  void cut(std::span<const ElementState> states, std::span<const ContactMemory> memory);
+  std::vector<ContactMemory> contact_memory() const;
+  std::vector<std::vector<ContactMemory>> by_part(std::span<const ContactMemory> memory) const;
   bool should_recut() const;
   double ghost_share() const;
   void open_epoch();
@@ -65,6 +68,7 @@ class CoupledModel final : public runtime::Model {
   void take_over_accounts();
 
   ModelContext context_;
+  const CouplingRow* coupling_row_ = nullptr;
   std::unique_ptr<Coupling> coupling_;
   const SplitRow* split_ = nullptr;
   std::size_t parts_ = 1;

@@ -12,6 +12,7 @@ namespace moraine {
 
 void SubModel::step(const runtime::Round& round, runtime::Port& port) {
   if (!round.opening()) advance(round);
+  step_message_.border_is_new = borders_due(round);
   for (HostLink& link : host_links_) {
     report(link, round.opening(), step_message_);
     step_message_.write(bytes_);
@@ -20,7 +21,8 @@ void SubModel::step(const runtime::Round& round, runtime::Port& port) {
 }
 
 void SubModel::advance(const runtime::Round& round) {
-  mass_moment_before_ = ledger_.mass_moment;
+  mass_moment_before_ =
+      ledger_.mass_moment + context_.engine->force_time * context_.world.substep * ledger_.momentum.linear;
   world_->step(static_cast<double>(round.number) * context_.world.substep);
   newly_broken_.assign(world_->broken_bonds().begin(), world_->broken_bonds().end());
   note_broken(newly_broken_);
@@ -60,17 +62,39 @@ void SubModel::report(const HostLink& link, bool opening, StepMessage& message) 
   message.border.clear();
   message.broken_bonds.clear();
   if (!opening) {
-    for (const Ghost& ghost : link.ghosts) message.results.push_back(result(ghost));
+    if (!context_.followers())
+      for (const Ghost& ghost : link.ghosts) message.results.push_back(result(ghost));
     for (const CrossBond& b : link.bonds)
       if (std::binary_search(newly_broken_.begin(), newly_broken_.end(), b.bond))
         message.broken_bonds.push_back(b.bond);
     std::sort(message.broken_bonds.begin(), message.broken_bonds.end());
   }
+  if (message.border_is_new) report_border(link, message.border);
+}
+
+/// Partners change places as soon as they meet. Followers are made in advance: until two elements may have come closer
+/// by the skin, less four substeps for what is known a substep late.
+bool SubModel::borders_due(const runtime::Round& round) {
+  if (!context_.followers()) return true;
+  if (round.opening()) {
+    if (!interrupted_) approached_ = 0;
+    return !interrupted_;
+  }
+  double speed = 0;
+  for (const HostLink& link : host_links_) speed = std::max(speed, link.max_speed);
+  const double step = (speed + max_speed_) * context_.world.substep;
+  approached_ += step;
+  if (approached_ + 4 * step < context_.skin) return false;
+  approached_ = 0;
+  return true;
+}
+
+void SubModel::report_border(const HostLink& link, std::vector<BorderElement>& border) const {
   // The owner's bounds are a substep old: its elements have moved at most this far since.
   const double reach = 1.5 * context_.skin + 2 * link.max_speed * context_.world.substep;
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (link.bounds.distance(motions_[i].position) <= radius_[i] + reach)
-      message.border.push_back({motions_[i].position, radius_[i]});
+      border.push_back({motions_[i].position, radius_[i]});
   }
 }
 

@@ -33,7 +33,8 @@ std::span<const runtime::Stage> SubModel::stages() {
 }
 
 SubModel::SubModel(const ModelContext& context, SubModelId id, std::vector<std::uint32_t> members,
-                   std::span<const ElementState> states, std::span<const std::uint32_t> inner_bonds)
+                   std::span<const ElementState> states, std::span<const std::uint32_t> inner_bonds,
+                   std::span<const ContactMemory> memory)
     : context_(context),
       id_(id),
       members_(std::move(members)),
@@ -49,6 +50,7 @@ SubModel::SubModel(const ModelContext& context, SubModelId id, std::vector<std::
     const auto [first, second] = context_.bond_ends[b];
     world_->add_bond(b, slots_[member_index(first)], slots_[member_index(second)]);
   }
+  world_->remember(memory);
   read_motions();
   update_bounds();
   update_ledger({});
@@ -132,7 +134,7 @@ void SubModel::set_neighbours(std::span<const Neighbour> neighbours) {
     }
     if (context_.coupling->hosts(n.id, id_)) {
       const auto same = std::find_if(old_owners.begin(), old_owners.end(), [&](auto& l) { return l.host == n.id; });
-      owner_links_.push_back(same == old_owners.end() ? OwnerLink{n.id, {}, {}, n.bonds, {}} : std::move(*same));
+      owner_links_.push_back(same == old_owners.end() ? OwnerLink{n.id, false, {}, {}, n.bonds, {}} : std::move(*same));
     }
   }
   for (HostLink& gone : old_hosts)

@@ -25,6 +25,8 @@ struct ModelContext {
   WorldSettings world;
   double skin = 0;         ///< ghosts are made below this gap [m]
   double speed_limit = 0;  ///< runaway above this [m/s]
+  /// Ghosts show their owner's state and have no say.
+  bool followers() const { return engine->ghosts == GhostKind::follower; }
   double element_mass(std::uint32_t element) const { return scene->elements[element].mass; }
   double radius(std::uint32_t element) const { return scene->shapes[scene->elements[element].shape].bounding_radius; }
 };
@@ -56,6 +58,7 @@ struct HostLink {
 /// `host` has ghosts of this sub-model's elements.
 struct OwnerLink {
   SubModelId host = 0;
+  bool border_is_new = false;         ///< the host asks for its ghosts to be chosen anew
   std::vector<BorderElement> border;  ///< the host's elements near our bounds
   std::vector<std::uint32_t> hosted;  ///< our elements that have a ghost there, ascending
   std::vector<CrossBond> bonds;       ///< alive; own = the element that needs a ghost there
@@ -68,8 +71,10 @@ class SubModel final : public runtime::SubModel {
   static std::span<const runtime::Stage> stages();
 
   /// `members`: elements ascending; `states`: one each. Bonds among them are `inner_bonds` (indices into Scene::bonds).
+  /// `memory`: of contacts of the members.
   SubModel(const ModelContext& context, SubModelId id, std::vector<std::uint32_t> members,
-           std::span<const ElementState> states, std::span<const std::uint32_t> inner_bonds);
+           std::span<const ElementState> states, std::span<const std::uint32_t> inner_bonds,
+           std::span<const ContactMemory> memory);
 
   std::span<const runtime::SubModelId> sources(int stage) const override;
   std::span<const runtime::SubModelId> targets(int stage) const override;
@@ -124,22 +129,27 @@ class SubModel final : public runtime::SubModel {
   void read_motions();
   void check_motions(const runtime::Round& round) const;
   void note_broken(std::span<const std::uint32_t> bonds);
+  bool borders_due(const runtime::Round& round);
   void report(const HostLink& link, bool opening, StepMessage& message) const;
+  void report_border(const HostLink& link, std::vector<BorderElement>& border) const;
   GhostResult result(const Ghost& ghost) const;
 
   void force_mirror(const runtime::Round& round, runtime::Port& port);
   void receive_results(OwnerLink& link, std::span<const std::byte> bytes);
   void forget_bonds(std::span<const std::uint32_t> broken);
   CopyMotion own_motion(const SharedElement& shared) const;
+  void collect_motions(const SharedElement& shared);
   void combine(SharedElement& shared);
   Vec3 spin(std::size_t member) const;
   void update_ledger(const runtime::Round& round);
 
   void bound_update(const runtime::Round& round, runtime::Port& port);
   void update_bounds();
+  void choose_ghosts();
   void choose_hosted(OwnerLink& link);
   void find_touching(const OwnerLink& link, std::vector<std::uint32_t>& out);
   void update_shared();
+  ElementState start_of(const SharedElement& shared, const Copy& copy) const;
   void start_shared(SharedElement& shared);
   void unshare(const SharedElement& shared);
   void send_ghosts(const OwnerLink& link, runtime::Port& port);
@@ -170,6 +180,7 @@ class SubModel final : public runtime::SubModel {
   Bounds bounds_;
   double max_speed_ = 0;
   double largest_radius_ = 0;  ///< of the members [m]
+  double approached_ = 0;      ///< how far a member and a neighbour's may have come closer since ghosts were chosen [m]
   Ledger ledger_;
   Vec3 mass_moment_before_ = Vec3::Zero();
   double disagreement_ = 0;

@@ -81,8 +81,8 @@ void all(Io& s, Fields&... fields) {
 template <class Io, class Self>
 void SubModel::fields(Io& s, Self& self) {
   all(s, self.members_, self.slots_, self.shared_index_, self.host_links_, self.owner_links_, self.shared_,
-      self.broken_, self.bounds_, self.max_speed_, self.largest_radius_, self.ledger_, self.disagreement_,
-      self.disagreements_, self.ghost_rounds_, self.rounds_, self.radius_, self.mass_);
+      self.broken_, self.bounds_, self.max_speed_, self.largest_radius_, self.approached_, self.ledger_,
+      self.disagreement_, self.disagreements_, self.ghost_rounds_, self.rounds_, self.radius_, self.mass_);
 }
 
 void SubModel::save(std::vector<std::byte>& out) const {

@@ -72,7 +72,7 @@ Summary summarise(const CoupledModel& model, const runtime::Simulation& simulati
   s.scene = scene.name;
   s.engine = scene.run.engine;
   s.precision = find_engine(scene.run.engine).precision;
-  s.coupling = scene.run.coupling;
+  s.coupling = model.coupling().name;
   s.split = model.split().name;
   s.scheduler = scene.run.scheduler;
   s.balancer = "none";

@@ -46,6 +46,12 @@ std::string barrier_text(std::size_t parts, int threads) {
                      100 * static_cast<double>(parts) / (rounds * threads));
 }
 
+std::string time_limit_text(const Scene& scene) {
+  const StepLimit limit = find_engine(scene.run.engine).step_limit(scene);
+  if (limit.reason.empty()) return "none";
+  return fmt::format("{:.4g} s per substep, set by {}", limit.substep, limit.reason);
+}
+
 }  // namespace
 
 int info(const Scene& scene) {
@@ -68,9 +74,10 @@ int info(const Scene& scene) {
   line("ghosts", model.size() < 2
                      ? std::string("none: one sub-model")
                      : fmt::format("coupling {}; about {:.0f} % expected for compact sub-models of this size",
-                                   scene.run.coupling, 100 * expected_ghost_share(double(largest))));
+                                   model.coupling().name, 100 * expected_ghost_share(double(largest))));
   line("time", fmt::format("{} steps of {:.6g} s in {} substep(s), {} iterations each", scene.time.steps, scene.time.dt,
                            scene.time.substeps, scene.run.iterations));
+  line("time limit", time_limit_text(scene));
   line("scheduling", fmt::format("{}; {}", scene.run.scheduler, barrier_text(model.size(), threads)));
   line("memory", fmt::format("about {:.0f} MB for the worlds", 8e-3 * double(scene.elements.size())));
   for (const std::string& warning : scene.warnings) line("warning", warning);
