@@ -22,11 +22,6 @@ std::vector<std::string> engine_names() {
   return names;
 }
 
-class EngineContract : public testing::TestWithParam<std::string> {
- protected:
-  const Engine& engine() const { return find_engine(GetParam()); }
-};
-
 /// A scene of balls of diameter `s` and more, that `scale`, `x` and `y` size and place.
 std::string balls(const std::string& items, const std::string& more = "", const std::string& material = "") {
   return "parameters: {s: 1, x: 0, y: 0}\ngravity: [0, 0, -9.81]\nmaterials: {rock: {density: 1000" + material +
@@ -36,13 +31,8 @@ std::string balls(const std::string& items, const std::string& more = "", const 
 
 const std::string floor = "boundaries: [{plane: {point: [0, 0, 0], normal: [0, 0, 1]}}]\n";
 
-/// Spheres and everything else, bonded here and there, fall a little into a box of planes and onto a mesh.
-const std::string pile = R"(
-parameters: {s: 1, x: 0, y: 0}
-gravity: [0, 0, -9.81]
-materials: {rock: {density: 1000, friction: 0.5, restitution: 0.2}}
-elements:
-  - {packing: cubic, shape: {sphere: s / 2}, cells: [3, 3, 3], at: [x + 0.1 * s, y + 0.1 * s, 0.05 * s], jitter: 0.02, spacing: 1.05, seed: 4, id_start: 100}
+/// What only some engines do; the others get spheres in their place.
+const std::string other_shapes = R"(
   - packing: list
     shape: {box: [0.9 * s, 0.7 * s, 0.8 * s]}
     items:
@@ -50,6 +40,26 @@ elements:
       - {id: 201, at: [x + 2.3 * s, y + 0.8 * s, 3.8 * s], shape: {capsule: {radius: 0.3 * s, length: 0.5 * s}}, rotation: {axis: [1, 0, 0], angle: 80}}
       - {id: 202, at: [x + 0.8 * s, y + 2.3 * s, 3.8 * s], shape: {hull: {points: [[0.4 * s, 0, 0], [-0.4 * s, 0, 0], [0, 0.4 * s, 0], [0, -0.4 * s, 0], [0, 0, 0.5 * s], [0, 0, -0.5 * s]]}}}
       - {id: 203, at: [x + 2.3 * s, y + 2.3 * s, 3.8 * s], shape: {compound: [{sphere: 0.3 * s, at: [-0.25 * s, 0, 0]}, {sphere: 0.3 * s, at: [0.25 * s, 0, 0]}]}}
+)";
+const std::string other_spheres = R"(
+  - packing: list
+    shape: {sphere: 0.4 * s}
+    items:
+      - {id: 200, at: [x + 0.8 * s, y + 0.8 * s, 3.8 * s]}
+      - {id: 201, at: [x + 2.3 * s, y + 0.8 * s, 3.8 * s], shape: {sphere: 0.2 * s}}
+      - {id: 202, at: [x + 0.8 * s, y + 2.3 * s, 3.8 * s], shape: {sphere: 0.6 * s}}
+      - {id: 203, at: [x + 2.3 * s, y + 2.3 * s, 3.8 * s]}
+)";
+
+/// Spheres and everything else, bonded here and there, fall a little into a box of planes and onto a mesh.
+std::string pile_of(const std::string& others) {
+  return R"(
+parameters: {s: 1, x: 0, y: 0}
+gravity: [0, 0, -9.81]
+materials: {rock: {density: 1000, friction: 0.5, restitution: 0.2}}
+elements:
+  - {packing: cubic, shape: {sphere: s / 2}, cells: [3, 3, 3], at: [x + 0.1 * s, y + 0.1 * s, 0.05 * s], jitter: 0.02, spacing: 1.05, seed: 4, id_start: 100})" +
+         others + R"(
 boundaries:
   - {plane: {point: [x, y, 0], normal: [1, 0, 0]}}
   - {plane: {point: [x, y, 0], normal: [0, 1, 0]}}
@@ -61,6 +71,13 @@ bonds:
   - {a: 104, b: 113, stiffness: 1e5 * s^2}
 time: {dt: 0.005 * sqrt(s), steps: 1}
 )";
+}
+
+class EngineContract : public testing::TestWithParam<std::string> {
+ protected:
+  const Engine& engine() const { return find_engine(GetParam()); }
+  std::string pile() const { return pile_of(engine().supports(Cuboid{}) ? other_shapes : other_spheres); }
+};
 
 /// Linear and angular momentum, the latter about the origin.
 Impulse momentum(const SingleWorld& w) {
@@ -102,24 +119,24 @@ TEST_P(EngineContract, ImpactWithFrictionKeepsMomentum) {
   EXPECT_LT(angular, 3e-3);
 }
 
-TEST_P(EngineContract, GravityIsSemiImplicitEuler) {
+/// z = z0 + v t - g t (t + h) / 2 by semi-implicit Euler, without the h if forces act in the middle of a substep.
+TEST_P(EngineContract, FreeFallIsThatOfItsIntegrator) {
   SingleWorld w(engine(), scene_of(balls("{id: 1, at: [0, 0, 9], velocity: [1, 0, 2]}")));
-  const int n = 100;
-  w.steps(n);
-  const double h = w.substep(), t = n * h;
+  w.steps(100);
+  const double h = (1 - 2 * engine().force_time) * w.substep(), t = 100 * w.step();
   EXPECT_NEAR(w.velocity(1).z(), 2 - 9.81 * t, 1e-5);
   EXPECT_NEAR(w.position(1).z(), 9 + 2 * t - 0.5 * 9.81 * t * (t + h), 1e-5);
   EXPECT_NEAR(w.position(1).x(), t, 1e-6);
 }
 
 TEST_P(EngineContract, OrderOfAddingDoesNotMatter) {
-  SingleWorld plain(engine(), scene_of(pile));
+  SingleWorld plain(engine(), scene_of(pile()));
   plain.steps(50);
   for (unsigned seed = 1; seed < 4; ++seed) {
     std::vector<std::uint32_t> order(plain.scene().elements.size());
     std::iota(order.begin(), order.end(), 0U);
     std::shuffle(order.begin(), order.end(), std::mt19937(seed));
-    SingleWorld other(engine(), scene_of(pile), order);
+    SingleWorld other(engine(), scene_of(pile()), order);
     other.steps(50);
     for (const ElementId id : plain.ids()) EXPECT_TRUE(same_bits(plain.state(id), other.state(id))) << id;
   }
@@ -143,10 +160,10 @@ TEST_P(EngineContract, WhatWasRemovedLeavesNoTrace) {
 }
 
 TEST_P(EngineContract, SavedWorldGoesOnAsTheOneThatStayed) {
-  SingleWorld stays(engine(), scene_of(pile));
+  SingleWorld stays(engine(), scene_of(pile()));
   stays.steps(60);
   stays.world().canonicalise();
-  ASSERT_GT(stays.world().work().contacts, 20U);
+  ASSERT_GT(stays.world().work().contacts, 12U);
   std::vector<std::byte> image;
   stays.world().save(image);
   SingleWorld moved(engine(), stays);
@@ -160,7 +177,7 @@ TEST_P(EngineContract, SavedWorldGoesOnAsTheOneThatStayed) {
 }
 
 TEST_P(EngineContract, DamagedImageIsRefused) {
-  SingleWorld w(engine(), scene_of(pile));
+  SingleWorld w(engine(), scene_of(pile()));
   w.steps(30);
   w.world().canonicalise();
   std::vector<std::byte> image;
@@ -211,7 +228,7 @@ TEST_P(EngineContract, GhostsMeetRealElementsOnly) {
   w.steps(200);
   EXPECT_NEAR(w.position(1).z(), 0.5, 0.01) << "real on the floor";
   EXPECT_NEAR(w.position(2).z(), 1.5, 0.02) << "ghost on a real one";
-  EXPECT_NEAR(w.position(3).z(), 0.6 - 0.5 * 9.81 * (1 + 0.005), 0.01) << "ghost through the floor";
+  EXPECT_NEAR(w.position(3).z(), 0.6 - 0.5 * 9.81, 0.03) << "ghost through the floor";
   EXPECT_NEAR(w.position(4).z() - w.position(3).z(), 1.2, 1e-3) << "ghost above a ghost";
 }
 
@@ -225,8 +242,8 @@ TEST_P(EngineContract, MassIsWhatImpulsesFeelAndGravityDoesNot) {
   EXPECT_NEAR(w.state(1).twist.angular.z(), 0.1 / (0.4 * 2 * 0.25), 1e-5);
   EXPECT_NEAR(w.state(2).twist.angular.z(), 0.1 / (0.4 * 8 * 0.25), 1e-5);
   w.steps(100);
-  EXPECT_NEAR(w.velocity(1).z(), -9.81 * 100 * w.substep(), 1e-4);
-  EXPECT_NEAR(w.velocity(2).z(), -9.81 * 100 * w.substep(), 1e-4);
+  EXPECT_NEAR(w.velocity(1).z(), -9.81 * 100 * w.step(), 1e-4);
+  EXPECT_NEAR(w.velocity(2).z(), -9.81 * 100 * w.step(), 1e-4);
 }
 
 TEST_P(EngineContract, StateThatWasSetIsTheStateRead) {
@@ -254,14 +271,10 @@ TEST_P(EngineContract, MovingBoundaryPushes) {
                                          "boundaries: [{plate: {size: [1, 4, 4], at: [-1.2, 0, 0]}, kinematic: true, "
                                          "motion: {velocity: [2, 0, 0], stop: 0.5}}]\n"),
                                    {set("gravity", "[0, 0, 0]")}));
-  Vec3 given = Vec3::Zero();
-  for (int k = 0; k < 80; ++k) {
-    w.steps(1);
-    given += w.world().boundary_impulse().linear;
-  }
+  w.steps(80);
   EXPECT_NEAR(w.velocity(1).x(), 2, 1e-3);
-  EXPECT_NEAR(given.x(), 3 * w.velocity(1).x(), 1e-4);
-  EXPECT_NEAR(w.position(1).x(), -0.2 + 2 * 80 * w.substep(), 0.02) << "the plate's face has come this far";
+  EXPECT_NEAR(w.given().linear.x(), 3 * w.velocity(1).x(), 1e-4);
+  EXPECT_NEAR(w.position(1).x(), -0.2 + 2 * 80 * w.step(), 0.02) << "the plate's face has come this far";
 }
 
 TEST_P(EngineContract, ContactsCarryTheWeightAtRest) {
@@ -293,9 +306,9 @@ TEST_P(EngineContract, BondBreaksOnceAndForGood) {
                                    {set("gravity", "[0, 0, 0]")}));
   int broke = 0;
   double length_before = 0;
-  for (int k = 0; k < 100; ++k) {
+  for (int k = 0; k < 100 * w.substeps_per_step(); ++k) {
     const double length = (w.position(2) - w.position(1)).norm();
-    w.steps(1);
+    w.substeps(1);
     if (w.world().broken_bonds().empty()) continue;
     ++broke;
     EXPECT_EQ(w.world().broken_bonds()[0], 0U);
@@ -310,10 +323,10 @@ TEST_P(EngineContract, BondBreaksOnceAndForGood) {
 
 /// The scene at 1/1000 and 1000 times the size, times by the square root: the same motion.
 TEST_P(EngineContract, ScaleDoesNotMatter) {
-  SingleWorld one(engine(), scene_of(pile));
+  SingleWorld one(engine(), scene_of(pile()));
   one.steps(60);
   for (const double scale : {1e-3, 1e3}) {
-    SingleWorld other(engine(), scene_of(pile, {set("s", scale)}));
+    SingleWorld other(engine(), scene_of(pile(), {set("s", scale)}));
     other.steps(60);
     for (const ElementId id : one.ids()) {
       EXPECT_LT((other.position(id) / scale - one.position(id)).norm(), 1e-5) << id << " at " << scale;
@@ -323,10 +336,10 @@ TEST_P(EngineContract, ScaleDoesNotMatter) {
 }
 
 TEST_P(EngineContract, PlaceDoesNotMatter) {
-  SingleWorld here(engine(), scene_of(pile));
+  SingleWorld here(engine(), scene_of(pile()));
   here.steps(60);
   const Vec3 far(1e6, -1e6, 0);
-  SingleWorld there(engine(), scene_of(pile, {set("x", far.x()), set("y", far.y())}));
+  SingleWorld there(engine(), scene_of(pile(), {set("x", far.x()), set("y", far.y())}));
   there.steps(60);
   for (const ElementId id : here.ids()) {
     EXPECT_LT((there.position(id) - far - here.position(id)).norm(), 1e-5) << id;

@@ -51,6 +51,7 @@ class ModelRun {
 
   const Scene& scene() const { return scene_; }
   const CoupledModel& model() const { return model_; }
+  runtime::SubModel& part(std::size_t i) { return model_.sub_model(static_cast<SubModelId>(i)); }
   double time() const { return static_cast<double>(rounds_) * scene_.time.substep(); }
   std::uint64_t hash() const { return state_hash(scene_, model_.states()); }
   ElementState of(ElementId id) const {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// One world of an engine that holds a whole scene.
+// One world of an engine that holds a whole scene. It takes the scene's steps, in as many substeps as the engine needs.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <string>
@@ -17,7 +18,11 @@ class SingleWorld {
  public:
   /// `order`: in which the elements (by index) and then the bonds between them are added; empty: as in the scene.
   SingleWorld(const Engine& engine, Scene scene, std::vector<std::uint32_t> order = {}, Limits limits = {})
-      : scene_(std::move(scene)), settings_(world_settings(scene_)) {
+      : scene_(std::move(scene)),
+        settings_(world_settings(scene_)),
+        substeps_(static_cast<int>(std::ceil(scene_.time.dt / (0.5 * engine.step_limit(scene_).substep)))) {
+    substeps_ = std::max(substeps_, scene_.time.substeps);
+    settings_.substep = scene_.time.dt / substeps_;
     settings_.limits = limits;
     Bounds box;
     for (const Element& e : scene_.elements) box.add(e.state.pose.position);
@@ -32,7 +37,12 @@ class SingleWorld {
   }
   /// A world with the same settings and nothing in it.
   SingleWorld(const Engine& engine, const SingleWorld& like)
-      : scene_(like.scene_), settings_(world_settings(scene_)), slots_(like.slots_), steps_(like.steps_) {
+      : scene_(like.scene_),
+        settings_(like.settings_),
+        substeps_(like.substeps_),
+        slots_(like.slots_),
+        done_(like.done_) {
+    settings_.scene = &scene_;
     Bounds box;
     for (const Element& e : scene_.elements) box.add(e.state.pose.position);
     world_ = engine.make(settings_, box.empty() ? Vec3::Zero() : box.min);
@@ -43,14 +53,22 @@ class SingleWorld {
   Slot add(const Element& e, Role role) {
     return slots_[e.id] = world_->add({e.id, e.shape, e.material, e.mass, role, e.state});
   }
-  void steps(int count) {
-    for (int i = 0; i < count; ++i) world_->step(static_cast<double>(steps_++) * settings_.substep);
+  void steps(int count) { substeps(count * substeps_); }
+  void substeps(int count) {
+    for (int i = 0; i < count; ++i) {
+      world_->step(static_cast<double>(done_++) * settings_.substep);
+      given_ += world_->boundary_impulse();
+    }
   }
 
   World& world() { return *world_; }
   const Scene& scene() const { return scene_; }
   Slot slot(ElementId id) const { return slots_.at(id); }
+  double step() const { return scene_.time.dt; }
   double substep() const { return settings_.substep; }
+  int substeps_per_step() const { return substeps_; }
+  /// By boundaries since the start.
+  const Impulse& given() const { return given_; }
   ElementState state(ElementId id) const { return world_->state(slots_.at(id)); }
   Vec3 position(ElementId id) const { return state(id).pose.position; }
   Vec3 velocity(ElementId id) const { return state(id).twist.linear; }
@@ -63,9 +81,11 @@ class SingleWorld {
  private:
   const Scene scene_;
   WorldSettings settings_;
+  int substeps_ = 1;
   std::unique_ptr<World> world_;
   std::map<ElementId, Slot> slots_;
-  std::int64_t steps_ = 0;
+  std::int64_t done_ = 0;
+  Impulse given_;
 };
 
 inline bool same_bits(const ElementState& a, const ElementState& b) {
