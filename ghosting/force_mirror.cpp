@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Force mirror: the owner turns what an element's copies did into the element's one state, and what they carry on.
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #include "ghosting/sub_model.hpp"
@@ -12,7 +13,7 @@ void SubModel::force_mirror(const runtime::Round& round, runtime::Port& port) {
   for (OwnerLink& link : owner_links_) receive_results(link, port.received(link.host));
   if (round.opening()) return;
   for (SharedElement& shared : shared_) combine(shared);
-  update_ledger(round);
+  close_account();
 }
 
 void SubModel::receive_results(OwnerLink& link, std::span<const std::byte> bytes) {
@@ -72,8 +73,28 @@ Vec3 SubModel::spin(std::size_t member) const {
   return q * Vec3(mass_[member] * shape.inertia_per_mass.cwiseProduct(q.conjugate() * w));
 }
 
-void SubModel::update_ledger(const runtime::Round& round) {
-  Ledger now;
+/// Where the members' masses are when forces act.
+void SubModel::open_account() {
+  const double ahead = context_.engine->force_time * context_.world.substep;
+  mass_moment_before_.setZero();
+  for (std::size_t i = 0; i < members_.size(); ++i)
+    mass_moment_before_ += mass_[i] * (motions_[i].position + ahead * motions_[i].twist.linear);
+}
+
+/// What gravity and boundaries gave in this substep.
+void SubModel::close_account() {
+  if (members_.empty()) return;
+  const Vec3 step = context_.scene->gravity * context_.world.substep;
+  const Impulse gravity{std::accumulate(mass_.begin(), mass_.end(), 0.0) * step, mass_moment_before_.cross(step)};
+  const Impulse walls = world_->boundary_impulse();
+  ledger_.given += gravity;
+  ledger_.given += walls;
+  ledger_.exchanged += gravity.linear.norm() + walls.linear.norm();
+  ledger_.exchanged_angular += gravity.angular.norm() + walls.angular.norm();
+}
+
+Ledger SubModel::ledger() const {
+  Ledger now = ledger_;
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const BodyMotion& m = motions_[i];
     const Vec3 p = mass_[i] * m.twist.linear, orbit = m.position.cross(p), turn = spin(i);
@@ -84,19 +105,7 @@ void SubModel::update_ledger(const runtime::Round& round) {
     now.mass_moment += mass_[i] * m.position;
     now.mass += mass_[i];
   }
-  now.given = ledger_.given;
-  now.exchanged = ledger_.exchanged;
-  now.exchanged_angular = ledger_.exchanged_angular;
-  if (!members_.empty() && ledger_.mass > 0 && !round.opening()) {
-    const Vec3 step = context_.scene->gravity * context_.world.substep;
-    const Impulse gravity{now.mass * step, mass_moment_before_.cross(step)};
-    const Impulse walls = world_->boundary_impulse();
-    now.given += gravity;
-    now.given += walls;
-    now.exchanged += gravity.linear.norm() + walls.linear.norm();
-    now.exchanged_angular += gravity.angular.norm() + walls.angular.norm();
-  }
-  ledger_ = now;
+  return now;
 }
 
 }  // namespace moraine

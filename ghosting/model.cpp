@@ -262,9 +262,10 @@ void CoupledModel::note_extremes() {
 void CoupledModel::take_over_accounts() {
   rounds_closed_ += sub_models_.front()->rounds();
   for (const auto& part : sub_models_) {
-    closed_.ledger.given += part->ledger().given;
-    closed_.ledger.exchanged += part->ledger().exchanged;
-    closed_.ledger.exchanged_angular += part->ledger().exchanged_angular;
+    const Ledger ledger = part->ledger();
+    closed_.ledger.given += ledger.given;
+    closed_.ledger.exchanged += ledger.exchanged;
+    closed_.ledger.exchanged_angular += ledger.exchanged_angular;
     disagreement_closed_ += part->disagreement();
     disagreements_closed_ += part->disagreements();
     ghost_rounds_closed_ += part->ghost_rounds();

@@ -21,8 +21,7 @@ void SubModel::step(const runtime::Round& round, runtime::Port& port) {
 }
 
 void SubModel::advance(const runtime::Round& round) {
-  mass_moment_before_ =
-      ledger_.mass_moment + context_.engine->force_time * context_.world.substep * ledger_.momentum.linear;
+  open_account();
   world_->step(static_cast<double>(round.number) * context_.world.substep);
   newly_broken_.assign(world_->broken_bonds().begin(), world_->broken_bonds().end());
   note_broken(newly_broken_);

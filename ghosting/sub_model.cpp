@@ -53,7 +53,6 @@ SubModel::SubModel(const ModelContext& context, SubModelId id, std::vector<std::
   world_->remember(memory);
   read_motions();
   update_bounds();
-  update_ledger({});
 }
 
 std::span<const runtime::SubModelId> SubModel::sources(int stage) const {

@@ -103,7 +103,8 @@ class SubModel final : public runtime::SubModel {
   std::size_t ghost_count() const;
   const Bounds& bounds() const { return bounds_; }
   double max_speed() const { return max_speed_; }
-  const Ledger& ledger() const { return ledger_; }
+  /// The accounts, with what the members have now.
+  Ledger ledger() const;
   const World& world() const { return *world_; }
   std::span<const HostLink> host_links() const { return host_links_; }
   std::span<const OwnerLink> owner_links() const { return owner_links_; }
@@ -141,7 +142,8 @@ class SubModel final : public runtime::SubModel {
   void collect_motions(const SharedElement& shared);
   void combine(SharedElement& shared);
   Vec3 spin(std::size_t member) const;
-  void update_ledger(const runtime::Round& round);
+  void open_account();
+  void close_account();
 
   void bound_update(const runtime::Round& round, runtime::Port& port);
   void update_bounds();
@@ -181,8 +183,8 @@ class SubModel final : public runtime::SubModel {
   double max_speed_ = 0;
   double largest_radius_ = 0;  ///< of the members [m]
   double approached_ = 0;      ///< how far a member and a neighbour's may have come closer since ghosts were chosen [m]
-  Ledger ledger_;
-  Vec3 mass_moment_before_ = Vec3::Zero();
+  Ledger ledger_;              ///< what was given; what members have is summed when asked for
+  Vec3 mass_moment_before_ = Vec3::Zero();  ///< when forces acted in this substep: sum of m x
   double disagreement_ = 0;
   std::uint64_t disagreements_ = 0;
   std::uint64_t ghost_rounds_ = 0, rounds_ = 0;

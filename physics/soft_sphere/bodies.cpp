@@ -62,7 +62,9 @@ void Bodies::remove(Slot slot) {
 }
 
 void Bodies::set_mass(Place place, double mass) {
+  if (entries[place].mass == mass) return;
   entries[place].mass = mass;
+  unsettled_ = true;
   moving[place].inverse_mass = 1 / mass;
 }
 
@@ -110,6 +112,7 @@ void Bodies::restore_slots(std::size_t slots, std::vector<Slot> free) {
   places_.assign(slots, nowhere);
   for (Place p = 0; p < size(); ++p) places_[entries[p].slot] = p;
   free_ = std::move(free);
+  unsettled_ = false;
 }
 
 }  // namespace moraine::soft_sphere

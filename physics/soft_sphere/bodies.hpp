@@ -45,6 +45,7 @@ class Bodies {
 
   Slot add(const Body& body, const Shape& shape);
   void remove(Slot slot);
+  /// Another mass than before makes the bodies unsettled: what is known of pairs depends on it.
   void set_mass(Place place, double mass);
   void set_state(Place place, const ElementState& state);
   ElementState state(Place place) const;

@@ -22,7 +22,7 @@ struct Meeting {
   Vec3 velocity = Vec3::Zero();  ///< of the centres (of the surface, for a wall) [m/s]
   Vec3 turning = Vec3::Zero();   ///< arm_1 w_1 + arm_2 w_2 [m/s]
   Vec3 spin = Vec3::Zero();      ///< w_1 - w_2 [rad/s]
-  double inverse_mass = 0;       ///< 1 / m* [1/kg]
+  double root_mass = 0;          ///< sqrt(m*) [kg^1/2]
   double radius = 0;             ///< R* [m]
 };
 
@@ -61,7 +61,7 @@ template <class Uses>
 Push push(const ContactLaw& law, const Meeting& m, double h, Springs& springs) {
   const double closing = m.velocity.dot(m.normal);
   const double a = Uses::hertz ? std::sqrt(m.radius * m.overlap) : 1.0;
-  const double damping = law.damping * std::sqrt(a / m.inverse_mass);
+  const double damping = law.damping * m.root_mass * (Uses::hertz ? std::sqrt(a) : 1.0);
   const double normal_force = law.stiffness * a * m.overlap - damping * closing;
   Push out{normal_force * m.normal, Vec3::Zero(), Vec3::Zero()};
   if constexpr (!Uses::friction) return out;

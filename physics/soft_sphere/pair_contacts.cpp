@@ -9,6 +9,10 @@ void PairContacts::list(const native::SizedGrid& grid, const Bodies& bodies, dou
   open_.assign(pairs_.size(), 0);
   if (laws_.friction()) sliding_.resize(pairs_.size());
   if (laws_.rolling()) rolling_.resize(pairs_.size());
+  root_mass_.resize(pairs_.size());
+  for (std::size_t k = 0; k < pairs_.size(); ++k)
+    root_mass_[k] =
+        1 / std::sqrt(bodies.moving[pairs_.lower()[k]].inverse_mass + bodies.moving[pairs_.higher()[k]].inverse_mass);
   touching_.clear();
   for (const LastingPair& c : lasting) {
     const std::size_t k = pairs_.find(c.low, c.high);
@@ -57,7 +61,7 @@ void PairContacts::act_on_touching(Bodies& bodies, double h) {
   for (const std::uint32_t k : touching_) {
     const Place i = pairs_.lower()[k], j = pairs_.higher()[k];
     double arm_i = 0, arm_j = 0;
-    const Meeting m = meet(bodies, i, j, arm_i, arm_j);
+    const Meeting m = meet(bodies, i, j, root_mass_[k], arm_i, arm_j);
     Springs s;
     if (open_[k]) {
       if constexpr (Uses::friction) s.sliding = sliding_[k];

@@ -36,30 +36,32 @@ class PairContacts {
   void find_touching(const Bodies& bodies);
   template <class Uses>
   void act_on_touching(Bodies& bodies, double h);
-  static Meeting meet(const Bodies& bodies, Place i, Place j, double& arm_i, double& arm_j);
+  static Meeting meet(const Bodies& bodies, Place i, Place j, double root_mass, double& arm_i, double& arm_j);
   Springs springs(std::size_t pair) const;
 
   const ContactLaws& laws_;
   native::VerletList pairs_;
   std::vector<std::uint8_t> open_;       ///< by pair: touched in the last step
+  std::vector<double> root_mass_;        ///< by pair: sqrt(m*) [kg^1/2]
   std::vector<Vec3> sliding_, rolling_;  ///< by pair; as far as the laws need them
   std::vector<std::uint32_t> touching_;  ///< pairs, ascending
 };
 
-inline Meeting PairContacts::meet(const Bodies& bodies, Place i, Place j, double& arm_i, double& arm_j) {
+inline Meeting PairContacts::meet(const Bodies& bodies, Place i, Place j, double root_mass, double& arm_i,
+                                  double& arm_j) {
   const native::Ball &a = bodies.ball[i], &b = bodies.ball[j];
   const Moving &p = bodies.moving[i], &q = bodies.moving[j];
   const Vec3 between = a.centre - b.centre;
   const double distance = between.norm();
   Meeting m;
-  if (distance > 0) m.normal = between / distance;
+  if (distance > 0) m.normal = (1 / distance) * between;
   m.overlap = a.radius + b.radius - distance;
   arm_i = a.radius - 0.5 * m.overlap;
   arm_j = b.radius - 0.5 * m.overlap;
   m.velocity = p.velocity - q.velocity;
   m.turning = arm_i * p.spin + arm_j * q.spin;
   m.spin = p.spin - q.spin;
-  m.inverse_mass = p.inverse_mass + q.inverse_mass;
+  m.root_mass = root_mass;
   m.radius = a.radius * b.radius / (a.radius + b.radius);
   return m;
 }
@@ -70,7 +72,7 @@ void PairContacts::each(const Bodies& bodies, Visit&& visit) const {
     for (const std::uint32_t k : touching_) {
       const Place i = pairs_.lower()[k], j = pairs_.higher()[k];
       double arm_i = 0, arm_j = 0;
-      const Meeting m = meet(bodies, i, j, arm_i, arm_j);
+      const Meeting m = meet(bodies, i, j, root_mass_[k], arm_i, arm_j);
       Springs s = springs(k);
       visit(i, j, m, push<decltype(parts)>(laws_.of(bodies.moving[i].material, bodies.moving[j].material), m, 0, s));
     }

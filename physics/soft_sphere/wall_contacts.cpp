@@ -56,7 +56,7 @@ Meeting WallContacts::meet(const Bodies& bodies, const LastingWallContact& c) co
   m.radius = bodies.ball[c.ball].radius;
   m.turning = (m.radius - c.overlap) * body.spin;
   m.spin = body.spin - walls_[c.wall].spin();
-  m.inverse_mass = body.inverse_mass;
+  m.root_mass = 1 / std::sqrt(body.inverse_mass);
   return m;
 }
 
