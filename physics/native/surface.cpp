@@ -110,9 +110,11 @@ void add(const Capsule& s, const Pose& pose, std::vector<Surface>& out) {
 void add(const ConvexHull& s, const Pose& pose, std::vector<Surface>& out) {
   add_triangles(convex_hull(s.vertices), pose, out);
 }
-void add(const Compound& s, const Pose&, std::vector<Surface>& out) {
-  for (const Compound::Part& part : s.parts)
-    std::visit([&](const auto& primitive) { add(primitive, part.pose, out); }, part.primitive);
+void add(const Compound& s, const Pose& pose, std::vector<Surface>& out) {
+  for (const Compound::Part& part : s.parts) {
+    const Pose placed{pose.position + pose.orientation * part.pose.position, pose.orientation * part.pose.orientation};
+    std::visit([&](const auto& primitive) { add(primitive, placed, out); }, part.primitive);
+  }
 }
 
 }  // namespace
@@ -125,14 +127,15 @@ Bounds bounds(const Surface& surface) {
   return std::visit([](const auto& s) { return box(s); }, surface);
 }
 
-std::vector<Surface> surfaces(const Boundary& boundary, const Scene& scene) {
+std::vector<Surface> surfaces(const Boundary& boundary, const Scene& scene, const Pose& pose) {
   std::vector<Surface> out;
   if (const auto* plane = std::get_if<Plane>(&boundary.geometry))
-    out.push_back(HalfSpace{plane->point, plane->normal.normalized()});
+    out.push_back(
+        HalfSpace{pose.position + pose.orientation * plane->point, pose.orientation * plane->normal.normalized()});
   else if (const auto* mesh = std::get_if<TriangleMesh>(&boundary.geometry))
-    add_triangles(*mesh, Pose{}, out);
+    add_triangles(*mesh, pose, out);
   else
-    std::visit([&](const auto& shape) { add(shape, Pose{}, out); },
+    std::visit([&](const auto& shape) { add(shape, pose, out); },
                scene.shapes[std::get<Solid>(boundary.geometry).shape].geometry);
   return out;
 }

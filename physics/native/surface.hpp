@@ -10,7 +10,6 @@
 
 namespace moraine::native {
 
-/// All in the boundary's own frame.
 struct HalfSpace {
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();  ///< unit, out of the solid
@@ -44,7 +43,8 @@ Nearest nearest(const Surface& surface, const Vec3& centre);
 /// Box around a surface; infinite for half spaces.
 Bounds bounds(const Surface& surface);
 
-/// The surfaces of a boundary, in its frame. Hulls become their triangles, compounds the surfaces of their parts.
-std::vector<Surface> surfaces(const Boundary& boundary, const Scene& scene);
+/// The surfaces of a boundary whose frame is at `pose`. Hulls become their triangles, compounds the surfaces of their
+/// parts.
+std::vector<Surface> surfaces(const Boundary& boundary, const Scene& scene, const Pose& pose);
 
 }  // namespace moraine::native

@@ -22,7 +22,7 @@ bool endless(const Bounds& box) { return !box.min.allFinite(); }
 }  // namespace
 
 Wall::Wall(const Boundary& boundary, const Scene& scene)
-    : boundary_(&boundary), surfaces_(native::surfaces(boundary, scene)) {
+    : boundary_(&boundary), surfaces_(native::surfaces(boundary, scene, moves() ? Pose{} : boundary.pose)) {
   for (const Surface& s : surfaces_) {
     const Bounds b = bounds(s);
     reach_ = std::max({reach_, b.min.norm(), b.max.norm(), b.min.cwiseAbs().cwiseMax(b.max.cwiseAbs()).norm()});
@@ -37,6 +37,7 @@ void Wall::move(double t) {
 }
 
 Nearest Wall::nearest(std::size_t surface, const Vec3& centre) const {
+  if (!moves()) return native::nearest(surfaces_[surface], centre);
   Nearest n = native::nearest(surfaces_[surface], pose_.orientation.conjugate() * (centre - pose_.position));
   n.point = pose_.position + pose_.orientation * n.point;
   n.normal = pose_.orientation * n.normal;
@@ -45,7 +46,7 @@ Nearest Wall::nearest(std::size_t surface, const Vec3& centre) const {
 
 Bounds Wall::box(std::size_t surface) const {
   const Bounds local = bounds(surfaces_[surface]);
-  if (endless(local)) return local;
+  if (endless(local) || !moves()) return local;
   Bounds out;
   for (const Vec3& c : corners(local)) out.add(pose_.position + pose_.orientation * c);
   return out;
@@ -54,6 +55,7 @@ Bounds Wall::box(std::size_t surface) const {
 bool Wall::sweeps() const { return !std::isfinite(reach_) && !boundary_->motion.velocity.angular.isZero(0); }
 
 double Wall::moved() const {
+  if (!moves()) return 0;
   const double turned = marked_.orientation.angularDistance(pose_.orientation);
   const double way = (pose_.position - marked_.position).norm();
   return turned > 0 && std::isfinite(reach_) ? way + turned * reach_ : way;

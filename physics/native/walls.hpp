@@ -42,8 +42,8 @@ class Wall {
 
  private:
   const Boundary* boundary_;
-  std::vector<Surface> surfaces_;
-  double reach_ = 0;  ///< of the surfaces from the frame's origin [m]
+  std::vector<Surface> surfaces_;  ///< in the boundary's frame if it moves, else in the world's
+  double reach_ = 0;               ///< of the surfaces from the frame's origin [m]
   Pose pose_, marked_;
   Twist twist_;
 };

@@ -32,7 +32,7 @@ Slot Bodies::add(const Body& body, const Shape& shape) {
   const auto at = static_cast<Place>(size());
   places_[slot] = at;
   resize(size() + 1);
-  entries[at] = {body.id, slot, body.shape, 0, 1 / shape.inertia_per_mass.x()};
+  entries[at] = {body.id, slot, body.shape, 0};
   ghost[at] = body.role == Role::ghost;
   moving[at].material = body.material;
   ball[at].radius = shape.sphere()->radius;

@@ -34,7 +34,6 @@ class Bodies {
     Slot slot = 0;
     std::uint32_t shape = 0;
     double mass = 0;
-    double inverse_gyration2 = 0;  ///< mass / inertia [1/m^2]
   };
 
   std::size_t size() const { return entries.size(); }
@@ -60,6 +59,9 @@ class Bodies {
   std::size_t slots() const { return places_.size(); }
   /// For a saved world: the arrays hold settled bodies, the slots that are not theirs are `free`.
   void restore_slots(std::size_t slots, std::vector<Slot> free);
+
+  /// Angular velocity per angular impulse of a solid sphere [1/(kg m^2)].
+  double inverse_inertia(Place p) const { return 2.5 * moving[p].inverse_mass / (ball[p].radius * ball[p].radius); }
 
   std::vector<Entry> entries;
   std::vector<std::uint8_t> ghost;

@@ -59,7 +59,7 @@ void SoftSphereWorld::apply_impulse(Slot slot, const Impulse& impulse) {
   const Place p = bodies_.place(slot);
   Moving& m = bodies_.moving[p];
   m.velocity += impulse.linear * m.inverse_mass;
-  m.spin += impulse.angular * (m.inverse_mass * bodies_.entries[p].inverse_gyration2);
+  m.spin += impulse.angular * bodies_.inverse_inertia(p);
 }
 
 /// Either end may be given first; the scene's order decides which body is the first of the pair.
@@ -147,7 +147,7 @@ void SoftSphereWorld::kick_and_drift() {
     Moving& m = bodies_.moving[p];
     const Load& load = bodies_.load[p];
     m.velocity += fall + (h * m.inverse_mass) * load.force;
-    m.spin += (h * m.inverse_mass * bodies_.entries[p].inverse_gyration2) * load.torque;
+    m.spin += (h * bodies_.inverse_inertia(p)) * load.torque;
     bodies_.position[p] = bodies_.ball[p].centre + (h / 2) * m.velocity;
     rotate(bodies_.orientation[p], h * m.spin);
   }
