@@ -116,20 +116,29 @@ void SubModel::update_shared() {
     shared_.push_back(std::move(shared));
   }
   for (; old != before.end(); ++old) unshare(*old);
+  locate_hosted();
 }
 
-ElementState SubModel::start_of(const SharedElement& shared, const Copy& copy) const {
+void SubModel::locate_hosted() {
+  for (OwnerLink& link : owner_links_) {
+    link.shared.clear();
+    for (const std::uint32_t e : link.hosted)
+      link.shared.push_back(static_cast<std::uint32_t>(shared_index_[member_index(e)]));
+  }
+}
+
+ElementState SubModel::start_of(const SharedElement& shared, SubModelId world) const {
   if (context_.followers()) return shared.state;
-  return {shared.state.pose, shared.state.twist + copy.offset};
+  const auto copy = std::find_if(shared.copies.begin(), shared.copies.end(), [&](auto& c) { return c.world == world; });
+  return {shared.state.pose, shared.state.twist + copy->offset};
 }
 
 /// The real copy of an element with followers needs no telling.
 void SubModel::start_shared(SharedElement& shared) {
   if (context_.followers()) return;
   const Slot slot = slots_[shared.member];
-  const auto own = std::find_if(shared.copies.begin(), shared.copies.end(), [&](auto& c) { return c.world == id_; });
   world_->set_mass(slot, mass_[shared.member] * context_.coupling->mass_share(shared.copies.size()));
-  world_->set_state(slot, start_of(shared, *own));
+  world_->set_state(slot, start_of(shared, id_));
   shared.start = {{world_->position(slot), shared.state.pose.orientation}, shared.state.twist};
 }
 
@@ -145,11 +154,10 @@ void SubModel::send_ghosts(const OwnerLink& link, runtime::Port& port) {
   bound_message_.bounds = bounds_;
   bound_message_.max_speed = max_speed_;
   bound_message_.ghosts.clear();
-  for (const std::uint32_t e : link.hosted) {
-    const SharedElement& shared = *find_shared(e);
-    const auto copy =
-        std::find_if(shared.copies.begin(), shared.copies.end(), [&](auto& c) { return c.world == link.host; });
-    bound_message_.ghosts.push_back({e, static_cast<std::uint32_t>(shared.copies.size()), start_of(shared, *copy)});
+  for (const std::uint32_t at : link.shared) {
+    const SharedElement& shared = shared_[at];
+    const auto copies = static_cast<std::uint32_t>(shared.copies.size());
+    bound_message_.ghosts.push_back({shared.element, copies, start_of(shared, link.host)});
   }
   bound_message_.broken_bonds = newly_broken_;
   bound_message_.write(bytes_);

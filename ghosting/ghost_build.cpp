@@ -36,6 +36,7 @@ void SubModel::update_ghosts(HostLink& link, const BoundMessage& message) {
 }
 
 void SubModel::place_ghost(Ghost& ghost, const GhostOrder& order, bool fresh) {
+  if (!fresh && context_.followers()) return world_->set_state(ghost.slot, order.start);
   const double mass = context_.element_mass(order.element) * context_.coupling->mass_share(order.copies);
   if (fresh) {
     const Element& e = context_.scene->elements[order.element];

@@ -107,11 +107,6 @@ std::size_t SubModel::member_index(std::uint32_t element) const {
   return static_cast<std::size_t>(std::lower_bound(members_.begin(), members_.end(), element) - members_.begin());
 }
 
-const SharedElement* SubModel::find_shared(std::uint32_t element) const {
-  const std::int32_t at = shared_index_[member_index(element)];
-  return at < 0 ? nullptr : &shared_[static_cast<std::size_t>(at)];
-}
-
 ElementState SubModel::state(std::size_t member) const {
   const std::int32_t at = shared_index_[member];
   return at < 0 ? world_->state(slots_[member]) : shared_[static_cast<std::size_t>(at)].state;
@@ -133,7 +128,8 @@ void SubModel::set_neighbours(std::span<const Neighbour> neighbours) {
     }
     if (context_.coupling->hosts(n.id, id_)) {
       const auto same = std::find_if(old_owners.begin(), old_owners.end(), [&](auto& l) { return l.host == n.id; });
-      owner_links_.push_back(same == old_owners.end() ? OwnerLink{n.id, false, {}, {}, n.bonds, {}} : std::move(*same));
+      owner_links_.push_back(same == old_owners.end() ? OwnerLink{n.id, false, {}, {}, {}, n.bonds, {}}
+                                                      : std::move(*same));
     }
   }
   for (HostLink& gone : old_hosts)

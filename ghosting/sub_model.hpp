@@ -61,6 +61,7 @@ struct OwnerLink {
   bool border_is_new = false;         ///< the host asks for its ghosts to be chosen anew
   std::vector<BorderElement> border;  ///< the host's elements near our bounds
   std::vector<std::uint32_t> hosted;  ///< our elements that have a ghost there, ascending
+  std::vector<std::uint32_t> shared;  ///< places of these among the shared elements
   std::vector<CrossBond> bonds;       ///< alive; own = the element that needs a ghost there
   std::vector<GhostResult> results;   ///< of the last step
 };
@@ -151,7 +152,8 @@ class SubModel final : public runtime::SubModel {
   void choose_hosted(OwnerLink& link);
   void find_touching(const OwnerLink& link, std::vector<std::uint32_t>& out);
   void update_shared();
-  ElementState start_of(const SharedElement& shared, const Copy& copy) const;
+  void locate_hosted();
+  ElementState start_of(const SharedElement& shared, SubModelId world) const;
   void start_shared(SharedElement& shared);
   void unshare(const SharedElement& shared);
   void send_ghosts(const OwnerLink& link, runtime::Port& port);
@@ -161,7 +163,6 @@ class SubModel final : public runtime::SubModel {
   static void fields(Io& s, Self& self);
 
   std::size_t member_index(std::uint32_t element) const;
-  const SharedElement* find_shared(std::uint32_t element) const;
 
   const ModelContext& context_;
   SubModelId id_;

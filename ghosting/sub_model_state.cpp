@@ -100,6 +100,7 @@ void SubModel::load(std::span<const std::byte> in) {
   world_->load(world);
   fields(r, *this);
   list_partners();
+  locate_hosted();
   read_motions();
   for (const SharedElement& s : shared_) motions_[s.member] = {s.state.pose.position, s.state.twist};
 }
