@@ -2,6 +2,7 @@
 // With the coupling `exact` a model's answer does not depend on how it is cut, nor on when it is cut anew.
 #include <gtest/gtest.h>
 
+#include "ghosting/check.hpp"
 #include "tests/support/model_run.hpp"
 
 namespace moraine {
@@ -35,7 +36,7 @@ struct Outcome {
 };
 
 Outcome outcome(Scene scene, int threads = 1) {
-  ModelRun run(std::move(scene), threads, threads == 1 ? "serial" : "hybrid");
+  ModelRun run(std::move(scene), threads, threads == 1 ? "serial" : "hybrid", verify_invariants);
   run.go();
   const ModelStatistics s = run.model().statistics();
   return {run.hash(), s.bonds_broken, s.recuts, std::max(s.linear_residual, s.angular_residual)};
@@ -62,6 +63,25 @@ TEST(ExactCoupling, GivesTheUncutAnswerHoweverTheModelIsCut) {
 TEST(ExactCoupling, GivesTheSameOnAnyNumberOfThreads) {
   const std::uint64_t alone = outcome(clash_in(7, "rcb")).hash;
   for (const int threads : {2, 8}) EXPECT_EQ(outcome(clash_in(7, "rcb"), threads).hash, alone) << threads;
+}
+
+/// A large ball falls into a heap of small ones, a twentieth of its size.
+TEST(ExactCoupling, HoldsForUnequalSizes) {
+  const auto heap = [](int parts) {
+    return scene_of(R"(
+materials: {rock: {density: 1000, friction: 0.4, restitution: 0.4}}
+elements:
+  - {packing: hcp, shape: {sphere: 0.05}, cells: [10, 10, 4], at: [0, 0, 0.01], jitter: 0.01}
+  - {packing: list, shape: {sphere: 1}, items: [{at: [0.5, 0.5, 1.6], velocity: [0, 0, -3]}]}
+boundaries: [{plane: {normal: [0, 0, 1]}}]
+time: {dt: 1e-5, duration: 0.05}
+run: {engine: soft_sphere, split: rcb}
+)",
+                    {set("run.sub_models", parts), set("materials.rock.normal_stiffness", 2e4)});
+  };
+  const Outcome uncut = outcome(heap(1)), cut = outcome(heap(6));
+  EXPECT_EQ(cut.hash, uncut.hash);
+  EXPECT_LT(cut.residual, 1e-10);
 }
 
 /// A collapsing dam with Hertz contacts.

@@ -113,10 +113,18 @@ TEST_F(Command, RefusesWrongScenes) {
   expect_input_error(run(good + "bonds: [{a: 1, b: 7, stiffness: 1}]\n"), "element 7, which does not exist");
 }
 
+TEST_F(Command, RefusesStepsTooLongForTheEngine) {
+  expect_input_error(run(good, "--engine soft_sphere"), "a substep of 0.01 s is too long for engine soft_sphere");
+  EXPECT_EQ(run(good, "--engine soft_sphere --dt 1e-5").status, 0);
+  EXPECT_EQ(summary().at("coupling"), "exact");
+}
+
 TEST_F(Command, RefusesUnknownNamesAndListsThoseItKnows) {
   expect_input_error(run(good, "--engine steam"), "bullet");
   expect_input_error(run(good, "--split thirds"), "pillars");
   expect_input_error(run(good, "--coupling glue"), "consensus");
+  expect_input_error(run(good, "--engine soft_sphere --dt 1e-5 --coupling mirror"), "exact");
+  expect_input_error(run(good, "--coupling exact"), "consensus, mirror");
   const Ended scheduler = run(good, "--scheduler fastest");
   EXPECT_NE(scheduler.status, 0);
   EXPECT_NE(scheduler.text.find("hybrid"), std::string::npos) << scheduler.text;
