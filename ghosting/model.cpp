@@ -347,8 +347,10 @@ OverlapStatistics CoupledModel::overlaps() const {
   OverlapStatistics out;
   double sum = 0;
   std::size_t count = 0;
-  for (const auto& part : sub_models_)
-    for (const Contact& c : part->world().contacts()) {
+  for (std::size_t p = 0; p < size(); ++p)
+    for (const Contact& c : part(p).world().contacts()) {
+      // Both sides know a contact across a cut if ghosts are followers.
+      if (context_.followers() && owners_[element_index(scene(), c.a)] != p) continue;
       const double overlap = c.overlap / context_.world.length_unit;
       if (overlap <= 0) continue;
       out.max = std::max(out.max, overlap);
