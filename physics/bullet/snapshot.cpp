@@ -8,7 +8,7 @@ namespace moraine::bullet {
 namespace {
 
 constexpr std::uint32_t magic = 0x4d42574cU;  // "LWBM"
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 
 struct BodyImage {
   std::uint32_t slot, id, shape, material;
@@ -24,7 +24,7 @@ btVector3 vector(const btScalar* from) { return {from[0], from[1], from[2]}; }
 
 struct PointImage {
   btScalar local_a[3], local_b[3], world_a[3], world_b[3], normal[3], dir1[3], dir2[3];
-  btScalar distance, impact_overlap, impulse, lateral1, lateral2, friction, restitution;
+  btScalar distance, impact_overlap, impulse, lateral1, lateral2, motion1, motion2, friction, restitution;
   std::int32_t flags, lifetime, part0, part1, index0, index1;
 };
 
@@ -42,6 +42,8 @@ PointImage image(const btManifoldPoint& p) {
   i.impulse = p.m_appliedImpulse;
   i.lateral1 = p.m_appliedImpulseLateral1;
   i.lateral2 = p.m_appliedImpulseLateral2;
+  i.motion1 = p.m_contactMotion1;
+  i.motion2 = p.m_contactMotion2;
   i.friction = p.m_combinedFriction;
   i.restitution = p.m_combinedRestitution;
   i.flags = p.m_contactPointFlags;
@@ -63,6 +65,8 @@ btManifoldPoint point(const PointImage& i) {
   p.m_appliedImpulse = i.impulse;
   p.m_appliedImpulseLateral1 = i.lateral1;
   p.m_appliedImpulseLateral2 = i.lateral2;
+  p.m_contactMotion1 = i.motion1;
+  p.m_contactMotion2 = i.motion2;
   p.m_combinedFriction = i.friction;
   p.m_combinedRestitution = i.restitution;
   p.m_contactPointFlags = i.flags;

@@ -8,6 +8,7 @@ namespace {
 
 // A contact is kept, with its impulses, up to this gap [sum of radii]; Bullet's own threshold for spheres.
 constexpr btScalar keep_gap = 0.01F;
+constexpr btScalar at_limit = 0.999F;  // friction impulses, squared, from here on are those of a sliding contact
 
 btScalar radius(const btCollisionObjectWrapper* o) {
   return static_cast<const btSphereShape*>(o->getCollisionShape())->getRadius();
@@ -39,19 +40,41 @@ void turn_directions(btManifoldPoint& p, const btVector3& normal) {
   p.m_lateralFrictionDir2 = normal.cross(p.m_lateralFrictionDir1);
 }
 
+/// Whether the last step's friction was less than friction can be.
+bool sticks(const btManifoldPoint& p) {
+  const btScalar limit = p.m_combinedFriction * p.m_appliedImpulse;
+  const btScalar s = p.m_appliedImpulseLateral1, t = p.m_appliedImpulseLateral2;
+  return (p.m_contactPointFlags & BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED) &&
+         s * s + t * t < at_limit * limit * limit;
+}
+
+/// The local points were at one place a step ago; what lies between them now is the slip since, to be taken back.
+void aim_back(btManifoldPoint& p, const btTransform& a, const btTransform& b, btScalar rate) {
+  if (!sticks(p)) {
+    p.m_contactMotion1 = p.m_contactMotion2 = 0;
+    return;
+  }
+  const btVector3 slip = a * p.m_localPointA - b * p.m_localPointB;
+  p.m_contactMotion1 -= rate * slip.dot(p.m_lateralFrictionDir1);
+  p.m_contactMotion2 -= rate * slip.dot(p.m_lateralFrictionDir2);
+}
+
 }  // namespace
 
 SphereContact::SphereContact(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
-                             const btCollisionObjectWrapper* b)
+                             const btCollisionObjectWrapper* b, btScalar slip_recovery)
     : btCollisionAlgorithm(info),
+      slip_recovery_(slip_recovery),
       manifold_(info.m_dispatcher1->getNewManifold(a->getCollisionObject(), b->getCollisionObject())) {}
 
 SphereContact::~SphereContact() { m_dispatcher->releaseManifold(manifold_); }
 
 void SphereContact::processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
-                                     const btDispatcherInfo&, btManifoldResult*) {
-  const btVector3& xa = a->getWorldTransform().getOrigin();
-  const btVector3& xb = b->getWorldTransform().getOrigin();
+                                     const btDispatcherInfo& info, btManifoldResult*) {
+  const btTransform& pose_a = a->getWorldTransform();
+  const btTransform& pose_b = b->getWorldTransform();
+  const btVector3& xa = pose_a.getOrigin();
+  const btVector3& xb = pose_b.getOrigin();
   const btScalar ra = radius(a), rb = radius(b);
   const btVector3 apart = xa - xb;
   const btScalar distance = apart.length();
@@ -68,14 +91,17 @@ void SphereContact::processCollision(const btCollisionObjectWrapper* a, const bt
   turn_directions(p, normal);
   p.m_normalWorldOnB = normal;
   p.m_distance1 = gap;
+  if (known) aim_back(p, pose_a, pose_b, slip_recovery_ / info.m_timeStep);
   p.m_positionWorldOnA = p.m_positionWorldOnB = xb + normal * (rb + gap / 2);
+  p.m_localPointA = pose_a.invXform(p.m_positionWorldOnA);
+  p.m_localPointB = pose_b.invXform(p.m_positionWorldOnB);
 }
 
 btCollisionAlgorithm* SphereContact::Maker::CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                                                      const btCollisionObjectWrapper* a,
                                                                      const btCollisionObjectWrapper* b) {
   void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(SphereContact));
-  return new (memory) SphereContact(info, a, b);
+  return new (memory) SphereContact(info, a, b, slip_recovery);
 }
 
 }  // namespace moraine::bullet

@@ -51,6 +51,7 @@ BulletWorld::BulletWorld(const WorldSettings& settings, const Vec3& origin)
       units_(settings, origin),
       configuration_(make_configuration()),
       dispatcher_(configuration_.get()),
+      sphere_contacts_(static_cast<btScalar>(settings.overlap_recovery)),
       dynamics_(&dispatcher_, &broadphase_, &solver_, configuration_.get()) {
   install_pair_laws();
   dispatcher_.registerCollisionCreateFunc(SPHERE_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE, &sphere_contacts_);
