@@ -11,13 +11,17 @@
 
 #include "ghosting/auto_count.hpp"
 #include "ghosting/check.hpp"
+#include "ghosting/collect.hpp"
+#include "ghosting/fields.hpp"
 #include "ghosting/neighbours.hpp"
 #include "physics/errors.hpp"
+#include "runtime/balance/initial_owners.hpp"
 
 namespace moraine {
 namespace {
 
 constexpr std::int64_t rounds_between_cuts = 64;
+constexpr std::int64_t longest_epoch = 64;  // rounds; sub-models can move and be saved between epochs only
 
 void check_shapes(const Scene& scene, const Engine& engine) {
   for (const Element& e : scene.elements)
@@ -87,6 +91,13 @@ std::uint32_t element_index(const Scene& scene, ElementId id) {
   return static_cast<std::uint32_t>(at - scene.elements.begin());
 }
 
+/// Blocks of sub-models with about as many elements on each rank.
+runtime::Owners first_placement(const std::vector<std::vector<std::uint32_t>>& members, int ranks) {
+  std::vector<double> load;
+  for (const auto& m : members) load.push_back(static_cast<double>(m.size()));
+  return runtime::initial_owners(load, std::vector<double>(static_cast<std::size_t>(ranks), 1.0));
+}
+
 }  // namespace
 
 Features features_of(const Scene& scene) {
@@ -124,7 +135,7 @@ Limits find_limits(std::string_view profile) {
   throw InputError(fmt::format("unknown engine profile '{}', expected one of: default, physx", profile));
 }
 
-CoupledModel::CoupledModel(const Scene& scene) {
+CoupledModel::CoupledModel(const Scene& scene, runtime::Transport& transport) : transport_(transport) {
   context_.scene = &scene;
   context_.engine = &find_engine(scene.run.engine);
   coupling_row_ = &find_coupling(scene.run.coupling, *context_.engine);
@@ -142,40 +153,51 @@ CoupledModel::CoupledModel(const Scene& scene) {
   std::vector<ElementState> states;
   for (const Element& e : scene.elements) states.push_back(e.state);
   cut(states, {});
-  for (const auto& part : sub_models_) opening_ledger_ += part->ledger();
+  for (const Report& r : reports()) accounts_.opening += r.ledger;
 }
 
 CoupledModel::~CoupledModel() = default;
 
-/// Makes all sub-models from the elements' states and what their contacts remember; used at the start and whenever
-/// membership is cut again.
+/// Makes the sub-models held here from the elements' states and what their contacts remember; used at the start and
+/// whenever membership is cut again.
 void CoupledModel::cut(std::span<const ElementState> states, std::span<const ContactMemory> memory) {
   std::vector<Vec3> positions;
   for (const ElementState& s : states) positions.push_back(s.pose.position);
+  std::vector<std::uint32_t> alive = alive_bonds();
   owners_ = split_->split({positions, scene().gravity, parts_});
   std::vector<std::vector<std::uint32_t>> members(parts_), bonds(parts_);
   for (std::uint32_t e = 0; e < owners_.size(); ++e) members[owners_[e]].push_back(e);
-  for (const std::uint32_t b : alive_bonds()) {
+  for (const std::uint32_t b : alive) {
     const auto [first, second] = context_.bond_ends[b];
     if (owners_[first] == owners_[second]) bonds[owners_[first]].push_back(b);
   }
+  if (placement().owner.empty()) place({transport_.rank(), first_placement(members, transport_.ranks())});
   const std::vector<std::vector<ContactMemory>> remembered = by_part(memory);
   sub_models_.clear();
+  sub_models_.resize(parts_);
   for (SubModelId id = 0; id < parts_; ++id) {
+    if (!placement().holds(id)) continue;
     std::vector<ElementState> own;
     for (const std::uint32_t e : members[id]) own.push_back(states[e]);
-    sub_models_.push_back(
-        std::make_unique<SubModel>(context_, id, std::move(members[id]), own, bonds[id], remembered[id]));
+    sub_models_[id] = std::make_unique<SubModel>(context_, id, std::move(members[id]), own, bonds[id], remembered[id]);
   }
   share_after_cut_ = -1;
-  rounds_at_cut_ = rounds_done_;
+  rounds_at_cut_ = epoch_begin_;
 }
 
-/// Of every contact once, ascending; those across a cut are known on both sides.
+/// Of every contact once, ascending; those across a cut are known on both sides. Collective.
 std::vector<ContactMemory> CoupledModel::contact_memory() const {
   std::vector<ContactMemory> all;
-  for (const auto& part : sub_models_) {
-    const std::vector<ContactMemory> own = part->world().contact_memory();
+  for (const runtime::Bytes& told : collect(*this, transport_, [&](SubModelId id) {
+         const std::vector<ContactMemory> own = sub_models_[id]->world().contact_memory();
+         runtime::Bytes out;
+         ByteWriter w(out);
+         fields::all(w, own);
+         return out;
+       })) {
+    std::vector<ContactMemory> own;
+    ByteReader r(told);
+    fields::all(r, own);
     all.insert(all.end(), own.begin(), own.end());
   }
   const auto key = [](const ContactMemory& m) { return std::tuple(m.a, m.with_boundary, m.b); };
@@ -197,11 +219,35 @@ std::vector<std::vector<ContactMemory>> CoupledModel::by_part(std::span<const Co
   return out;
 }
 
+void CoupledModel::adopt(runtime::SubModelId id, std::span<const std::byte> saved) {
+  sub_models_[id] = std::make_unique<SubModel>(context_, id);
+  sub_models_[id]->load(saved);
+}
+
+std::vector<Report> CoupledModel::reports() const {
+  std::vector<Report> all;
+  for (const runtime::Bytes& told : collect(*this, transport_, [&](SubModelId id) {
+         runtime::Bytes out;
+         ByteWriter w(out);
+         Report report = sub_models_[id]->report();
+         fields::all(w, report);
+         return out;
+       })) {
+    ByteReader r(told);
+    fields::all(r, all.emplace_back());
+  }
+  return all;
+}
+
 std::vector<std::uint32_t> CoupledModel::alive_bonds() const {
+  return scene().bonds.empty() || sub_models_.empty() ? alive_bonds(std::vector<Report>{}) : alive_bonds(reports());
+}
+
+std::vector<std::uint32_t> CoupledModel::alive_bonds(const std::vector<Report>& reports) const {
   std::vector<bool> alive(scene().bonds.size(), true);
-  for (const std::uint32_t b : broken_) alive[b] = false;
-  for (const auto& part : sub_models_)
-    for (const std::uint32_t b : part->broken_bonds()) alive[b] = false;
+  for (const std::uint32_t b : accounts_.broken_bonds) alive[b] = false;
+  for (const Report& r : reports)
+    for (const std::uint32_t b : r.broken_bonds) alive[b] = false;
   std::vector<std::uint32_t> out;
   for (std::uint32_t b = 0; b < alive.size(); ++b)
     if (alive[b]) out.push_back(b);
@@ -209,89 +255,66 @@ std::vector<std::uint32_t> CoupledModel::alive_bonds() const {
 }
 
 /// Epochs end where the model says. Being stopped earlier, for a frame, must not change anything.
-std::int64_t CoupledModel::begin_epoch(std::int64_t next_round, std::int64_t at_most) {
-  rounds_done_ = next_round;
-  if (next_round < epoch_end_)
-    for (auto& part : sub_models_) part->go_on();
-  else
+runtime::EpochPlan CoupledModel::begin_epoch(std::int64_t next_round, std::int64_t at_most) {
+  const bool restored = next_round == epoch_begin_ && next_round < epoch_end_;
+  const bool interrupted = !restored && next_round < epoch_end_;
+  if (interrupted) {
+    for (const auto& part : sub_models_)
+      if (part) part->go_on();
+  } else if (!restored) {
+    epoch_begin_ = next_round;
     open_epoch();
-  return std::min(at_most, epoch_end_ - next_round);
+  }
+  return {std::min(at_most, epoch_end_ - next_round), !interrupted && !restored};
 }
 
 void CoupledModel::open_epoch() {
-  note_extremes();
+  std::vector<Report> now = reports();
+  accounts_.note_extremes(now);
+  ghosts_at_epoch_ = ghosts(now);
+  if (share_after_cut_ < 0 && epoch_begin_ > rounds_at_cut_) share_after_cut_ = ghost_share();
   check_invariants(*this);
   if (should_recut()) {
-    const std::vector<ElementState> now = states();
+    const std::vector<ElementState> present = states();
     const std::vector<ContactMemory> memory = contact_memory();
-    take_over_accounts();
-    cut(now, memory);
-    ++closed_.recuts;
+    accounts_.take_over(now);
+    cut(present, memory);
+    now = reports();
   }
-  for (auto& part : sub_models_) part->canonicalise();
-  settle_neighbours();
-}
-
-std::size_t CoupledModel::ghosts_now() const {
-  std::size_t ghosts = 0;
-  for (const auto& part : sub_models_) ghosts += part->ghost_count();
-  return ghosts;
+  settle_neighbours(now);
+  for (const auto& part : sub_models_)
+    if (part) part->canonicalise();
 }
 
 double CoupledModel::ghost_share() const {
-  return static_cast<double>(ghosts_now()) / static_cast<double>(std::max<std::size_t>(1, owners_.size()));
+  return static_cast<double>(ghosts_at_epoch_) / static_cast<double>(std::max<std::size_t>(1, owners_.size()));
 }
 
 /// The share right after a cut is what this scene costs at best; cutting again must promise something.
 bool CoupledModel::should_recut() const {
-  if (parts_ < 2 || rounds_done_ < rounds_at_cut_ + rounds_between_cuts || share_after_cut_ < 0) return false;
+  if (parts_ < 2 || epoch_begin_ < rounds_at_cut_ + rounds_between_cuts || share_after_cut_ < 0) return false;
   const double share = ghost_share();
   return share > scene().run.recut_ghost_share && share > 1.3 * share_after_cut_;
 }
 
-void CoupledModel::note_extremes() {
-  Ledger sum;
-  for (const auto& part : sub_models_) sum += part->ledger();
-  ghosts_max_ = std::max(ghosts_max_, ghosts_now());
-  speed_sum_max_ = std::max(speed_sum_max_, sum.speed_sum);
-  spin_scale_max_ = std::max(spin_scale_max_, sum.spin_scale);
-  if (share_after_cut_ < 0 && rounds_done_ > rounds_at_cut_) share_after_cut_ = ghost_share();
-}
-
-/// Sub-models about to be replaced leave what they counted.
-void CoupledModel::take_over_accounts() {
-  rounds_closed_ += sub_models_.front()->rounds();
-  for (const auto& part : sub_models_) {
-    const Ledger ledger = part->ledger();
-    closed_.ledger.given += ledger.given;
-    closed_.ledger.exchanged += ledger.exchanged;
-    closed_.ledger.exchanged_angular += ledger.exchanged_angular;
-    disagreement_closed_ += part->disagreement();
-    disagreements_closed_ += part->disagreements();
-    ghost_rounds_closed_ += part->ghost_rounds();
-    broken_.insert(broken_.end(), part->broken_bonds().begin(), part->broken_bonds().end());
-  }
-  std::sort(broken_.begin(), broken_.end());
-  broken_.erase(std::unique(broken_.begin(), broken_.end()), broken_.end());
-}
-
 /// By bounds, and by bonds across cuts, which also tie sub-models that are apart.
-void CoupledModel::settle_neighbours() {
+void CoupledModel::settle_neighbours(const std::vector<Report>& reports) {
   std::vector<Reach> reaches;
-  for (const auto& part : sub_models_) reaches.push_back({part->bounds(), part->max_speed()});
+  for (const Report& r : reports) reaches.push_back({r.bounds, r.max_speed});
   const Neighbourhood near = find_neighbours(reaches, context_.world.length_unit, scene().gravity.norm(),
-                                             context_.world.substep, std::numeric_limits<std::int64_t>::max());
-  epoch_end_ = rounds_done_ + near.rounds;
+                                             context_.world.substep, longest_epoch);
+  epoch_end_ = epoch_begin_ + near.rounds;
 
   std::map<std::pair<SubModelId, SubModelId>, std::vector<std::uint32_t>> pairs;
   for (const auto& pair : near.pairs) pairs[pair];
-  for (const std::uint32_t b : alive_bonds()) {
+  for (const std::uint32_t b : alive_bonds(reports)) {
     const auto [first, second] = context_.bond_ends[b];
     const SubModelId low = std::min(owners_[first], owners_[second]), high = std::max(owners_[first], owners_[second]);
     if (low != high) pairs[{low, high}].push_back(b);
   }
   std::vector<std::vector<SubModel::Neighbour>> neighbours(parts_);
   const auto join = [&](SubModelId at, SubModelId other, const std::vector<std::uint32_t>& bonds) {
+    if (!placement().holds(at)) return;
     SubModel::Neighbour n{other, reaches[other].bounds, reaches[other].max_speed, {}};
     for (const std::uint32_t b : bonds) {
       const auto [first, second] = context_.bond_ends[b];
@@ -305,60 +328,70 @@ void CoupledModel::settle_neighbours() {
     join(pair.second, pair.first, bonds);
   }
   for (SubModelId id = 0; id < parts_; ++id) {
+    if (!placement().holds(id)) continue;
     std::sort(neighbours[id].begin(), neighbours[id].end(), [](auto& a, auto& b) { return a.id < b.id; });
     sub_models_[id]->set_neighbours(neighbours[id]);
   }
 }
 
-std::vector<ElementState> CoupledModel::states() const {
-  std::vector<ElementState> out(owners_.size());
-  for (const auto& part : sub_models_)
-    for (std::size_t i = 0; i < part->members().size(); ++i) out[part->members()[i]] = part->state(i);
+std::vector<ElementState> CoupledModel::states(std::optional<int> root) const {
+  const std::vector<runtime::Bytes> told = collect(
+      *this, transport_,
+      [&](SubModelId id) {
+        runtime::Bytes out;
+        ByteWriter w(out);
+        for (std::size_t i = 0; i < sub_models_[id]->members().size(); ++i) {
+          const ElementState s = sub_models_[id]->state(i);
+          fields::all(w, s);
+        }
+        return out;
+      },
+      root);
+  std::vector<ElementState> out;
+  if (told.empty()) return out;
+  std::vector<ByteReader> readers(told.begin(), told.end());
+  for (const SubModelId owner : owners_) fields::all(readers[owner], out.emplace_back());
   return out;
 }
 
 ModelStatistics CoupledModel::statistics() const {
-  ModelStatistics s = closed_;
-  s.bonds_broken = scene().bonds.size() - alive_bonds().size();
-  s.ghosts_now = ghosts_now();
-  s.ghosts_max = std::max(ghosts_max_, s.ghosts_now);
-  double disagreement = disagreement_closed_;
-  std::uint64_t disagreements = disagreements_closed_, ghost_rounds = ghost_rounds_closed_, rounds = rounds_closed_;
-  if (!sub_models_.empty()) rounds += sub_models_.front()->rounds();
-  for (const auto& part : sub_models_) {
-    s.ledger += part->ledger();
-    disagreement += part->disagreement();
-    disagreements += part->disagreements();
-    ghost_rounds += part->ghost_rounds();
-  }
-  s.ghosts_mean = static_cast<double>(ghost_rounds) / static_cast<double>(std::max<std::uint64_t>(1, rounds));
-  const Vec3 linear = s.ledger.momentum.linear - opening_ledger_.momentum.linear - s.ledger.given.linear;
-  const Vec3 angular = s.ledger.momentum.angular - opening_ledger_.momentum.angular - s.ledger.given.angular;
-  const auto relative = [](double x, double scale) { return scale > 0 ? x / scale : x; };
-  s.linear_residual = relative(linear.norm(), std::max({speed_sum_max_, s.ledger.speed_sum, s.ledger.exchanged}));
-  s.angular_residual =
-      relative(angular.norm(), std::max({spin_scale_max_, s.ledger.spin_scale, s.ledger.exchanged_angular}));
-  const double speed = context_.world.length_unit / context_.world.time_unit;
-  s.coupling_residual = disagreements == 0 ? 0 : std::sqrt(disagreement / static_cast<double>(disagreements)) / speed;
-  return s;
+  return accounts_.statistics(reports(), context_.world.length_unit / context_.world.time_unit);
 }
 
 OverlapStatistics CoupledModel::overlaps() const {
-  OverlapStatistics out;
-  double sum = 0;
-  std::size_t count = 0;
-  for (std::size_t p = 0; p < size(); ++p)
-    for (const Contact& c : part(p).world().contacts()) {
+  struct Sums {
+    double max = 0, sum = 0;
+    std::uint64_t count = 0;
+  };
+  const auto told = collect(*this, transport_, [&](SubModelId id) {
+    Sums own;
+    for (const Contact& c : sub_models_[id]->world().contacts()) {
       // Both sides know a contact across a cut if ghosts are followers.
-      if (context_.followers() && owners_[element_index(scene(), c.a)] != p) continue;
+      if (context_.followers() && owners_[element_index(scene(), c.a)] != id) continue;
       const double overlap = c.overlap / context_.world.length_unit;
       if (overlap <= 0) continue;
-      out.max = std::max(out.max, overlap);
-      sum += overlap;
-      ++count;
+      own = {std::max(own.max, overlap), own.sum + overlap, own.count + 1};
     }
-  out.mean = count == 0 ? 0 : sum / static_cast<double>(count);
-  return out;
+    runtime::Bytes out;
+    ByteWriter(out).put(own);
+    return out;
+  });
+  Sums all;
+  for (const runtime::Bytes& b : told) {
+    const Sums one = ByteReader(b).get<Sums>();
+    all = {std::max(all.max, one.max), all.sum + one.sum, all.count + one.count};
+  }
+  return {all.max, all.count == 0 ? 0 : all.sum / static_cast<double>(all.count)};
+}
+
+void CoupledModel::save_common(std::vector<std::byte>& out) const {
+  ByteWriter w(out);
+  fields::all(w, owners_, epoch_begin_, epoch_end_, share_after_cut_, rounds_at_cut_, accounts_);
+}
+
+void CoupledModel::load_common(std::span<const std::byte> in) {
+  ByteReader r(in);
+  fields::all(r, owners_, epoch_begin_, epoch_end_, share_after_cut_, rounds_at_cut_, accounts_);
 }
 
 }  // namespace moraine

@@ -4,26 +4,16 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "ghosting/accounts.hpp"
 #include "ghosting/split.hpp"
 #include "ghosting/sub_model.hpp"
+#include "runtime/transport/transport.hpp"
 
 namespace moraine {
-
-/// Counts and residuals of a run so far.
-struct ModelStatistics {
-  double ghosts_mean = 0;
-  std::size_t ghosts_max = 0;
-  std::size_t ghosts_now = 0;
-  std::size_t bonds_broken = 0;
-  std::size_t recuts = 0;
-  double linear_residual = 0;    ///< unexplained momentum / larger of the largest sum of m|v| and the impulse exchanged
-  double angular_residual = 0;   ///< the same for angular momentum about the world origin
-  double coupling_residual = 0;  ///< rms speed by which copies disagreed / sqrt(g d)
-  Ledger ledger;
-};
 
 /// Overlaps of the present contacts, in element diameters.
 struct OverlapStatistics {
@@ -31,28 +21,40 @@ struct OverlapStatistics {
   double mean = 0;  ///< over contacts that overlap
 };
 
-class CoupledModel final : public runtime::Model {
+class CoupledModel : public runtime::Model {
  public:
-  /// Cuts the scene as its run settings say. `scene` must outlive the model.
+  /// Cuts the scene as its run settings say, and makes the sub-models that this rank owns: blocks of about as many
+  /// elements on each rank. `scene` and `transport` must outlive the model. On several ranks all must make one.
   /// Errors: InputError for unknown names, shapes the engine cannot do, limits that cannot be kept.
-  explicit CoupledModel(const Scene& scene);
+  explicit CoupledModel(const Scene& scene, runtime::Transport& transport = runtime::alone());
   ~CoupledModel() override;
 
   std::span<const runtime::Stage> stages() const override { return SubModel::stages(); }
   std::size_t size() const override { return sub_models_.size(); }
   runtime::SubModel& sub_model(runtime::SubModelId id) override { return *sub_models_[id]; }
-  std::int64_t begin_epoch(std::int64_t next_round, std::int64_t at_most) override;
+  runtime::EpochPlan begin_epoch(std::int64_t next_round, std::int64_t at_most) override;
+  void save_common(std::vector<std::byte>& out) const override;
+  void load_common(std::span<const std::byte> in) override;
+  void release(runtime::SubModelId id) override { sub_models_[id].reset(); }
+  void adopt(runtime::SubModelId id, std::span<const std::byte> saved) override;
 
   const Scene& scene() const { return *context_.scene; }
   const SplitRow& split() const { return *split_; }
   const CouplingRow& coupling() const { return *coupling_row_; }
+  bool holds(std::size_t i) const { return sub_models_[i] != nullptr; }
+  /// One that is held here.
   const SubModel& part(std::size_t i) const { return *sub_models_[i]; }
-  /// Canonical state of every element, ascending id.
-  std::vector<ElementState> states() const;
   /// Owner of every element, ascending id.
   const std::vector<SubModelId>& owners() const { return owners_; }
+
+  /// When neighbours were settled last.
+  std::uint64_t ghosts_at_epoch() const { return ghosts_at_epoch_; }
+
+  // The following are collective.
+
+  /// Canonical state of every element, ascending id; on all ranks, or on `root` alone (nothing elsewhere).
+  std::vector<ElementState> states(std::optional<int> root = std::nullopt) const;
   std::vector<std::uint32_t> alive_bonds() const;
-  std::size_t ghosts_now() const;
   ModelStatistics statistics() const;
   OverlapStatistics overlaps() const;
 
@@ -60,32 +62,29 @@ class CoupledModel final : public runtime::Model {
   void cut(std::span<const ElementState> states, std::span<const ContactMemory> memory);
   std::vector<ContactMemory> contact_memory() const;
   std::vector<std::vector<ContactMemory>> by_part(std::span<const ContactMemory> memory) const;
+  void open_epoch();
   bool should_recut() const;
   double ghost_share() const;
-  void open_epoch();
-  void settle_neighbours();
-  void note_extremes();
-  void take_over_accounts();
+  void settle_neighbours(const std::vector<Report>& reports);
+  std::vector<std::uint32_t> alive_bonds(const std::vector<Report>& reports) const;
+  std::vector<Report> reports() const;
 
+  runtime::Transport& transport_;
   ModelContext context_;
   const CouplingRow* coupling_row_ = nullptr;
   std::unique_ptr<Coupling> coupling_;
   const SplitRow* split_ = nullptr;
   std::size_t parts_ = 1;
-  std::vector<std::unique_ptr<SubModel>> sub_models_;
+  std::vector<std::unique_ptr<SubModel>> sub_models_;  ///< none where another rank owns it
+
+  // The same on every rank
   std::vector<SubModelId> owners_;
+  std::int64_t epoch_begin_ = 0;
   std::int64_t epoch_end_ = 0;   ///< the first round for which neighbours must be settled anew
   double share_after_cut_ = -1;  ///< -1: not known yet
-  std::int64_t rounds_done_ = 0, rounds_at_cut_ = 0;
-
-  // Accounts of sub-models of earlier cuts, and extremes between epochs
-  ModelStatistics closed_;
-  Ledger opening_ledger_;
-  double disagreement_closed_ = 0;
-  std::uint64_t disagreements_closed_ = 0, ghost_rounds_closed_ = 0, rounds_closed_ = 0;
-  std::vector<std::uint32_t> broken_;  ///< ascending
-  std::size_t ghosts_max_ = 0;
-  double speed_sum_max_ = 0, spin_scale_max_ = 0;
+  std::int64_t rounds_at_cut_ = 0;
+  std::uint64_t ghosts_at_epoch_ = 0;
+  Accounts accounts_;
 };
 
 /// Units and settings of the worlds a scene needs.

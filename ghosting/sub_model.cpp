@@ -37,9 +37,10 @@ SubModel::SubModel(const ModelContext& context, SubModelId id, std::vector<std::
                    std::span<const ContactMemory> memory)
     : context_(context),
       id_(id),
+      origin_(middle(states)),
       members_(std::move(members)),
       shared_index_(members_.size(), -1),
-      world_(context.engine->make(context.world, middle(states))) {
+      world_(context.engine->make(context.world, origin_)) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     slots_.push_back(world_->add(body(context_, members_[i], states[i])));
     radius_.push_back(context_.radius(members_[i]));
@@ -95,6 +96,13 @@ double SubModel::counted_work(int stage) const {
     default:
       return 0.1 * static_cast<double>(shared_.size()) + 0.02 * members;
   }
+}
+
+/// A body with its share of contacts and of the engine's bookkeeping, measured.
+double SubModel::memory() const { return 4000.0 * static_cast<double>(members_.size() + ghost_count()); }
+
+Report SubModel::report() const {
+  return {bounds_, max_speed_, ledger(), disagreement_, disagreements_, ghost_count(), ghost_rounds_, rounds_, broken_};
 }
 
 std::size_t SubModel::ghost_count() const {

@@ -10,6 +10,7 @@
 #include "ghosting/coupling.hpp"
 #include "ghosting/ledger.hpp"
 #include "ghosting/messages.hpp"
+#include "ghosting/report.hpp"
 #include "physics/cell_grid.hpp"
 #include "physics/world.hpp"
 #include "runtime/sub_model.hpp"
@@ -76,11 +77,14 @@ class SubModel final : public runtime::SubModel {
   SubModel(const ModelContext& context, SubModelId id, std::vector<std::uint32_t> members,
            std::span<const ElementState> states, std::span<const std::uint32_t> inner_bonds,
            std::span<const ContactMemory> memory);
+  /// Empty, to be loaded.
+  SubModel(const ModelContext& context, SubModelId id) : SubModel(context, id, {}, {}, {}, {}) {}
 
   std::span<const runtime::SubModelId> sources(int stage) const override;
   std::span<const runtime::SubModelId> targets(int stage) const override;
   void run(int stage, const runtime::Round& round, runtime::Port& port) override;
   double counted_work(int stage) const override;
+  double memory() const override;
   void save(std::vector<std::byte>& out) const override;
   void load(std::span<const std::byte> in) override;
 
@@ -100,10 +104,8 @@ class SubModel final : public runtime::SubModel {
 
   SubModelId id() const { return id_; }
   std::span<const std::uint32_t> members() const { return members_; }
-  std::span<const std::uint32_t> broken_bonds() const { return broken_; }
   std::size_t ghost_count() const;
-  const Bounds& bounds() const { return bounds_; }
-  double max_speed() const { return max_speed_; }
+  Report report() const;
   /// The accounts, with what the members have now.
   Ledger ledger() const;
   const World& world() const { return *world_; }
@@ -112,12 +114,6 @@ class SubModel final : public runtime::SubModel {
   std::span<const SharedElement> shared() const { return shared_; }
   /// The canonical state of a member, by its place in members().
   ElementState state(std::size_t member) const;
-  /// Sum and count of squared disagreements of copies since the start, for the coupling residual.
-  double disagreement() const { return disagreement_; }
-  std::uint64_t disagreements() const { return disagreements_; }
-  /// Sum over rounds of the number of ghosts here, and how many rounds that were.
-  std::uint64_t ghost_rounds() const { return ghost_rounds_; }
-  std::uint64_t rounds() const { return rounds_; }
 
  private:
   void ghost_build(const runtime::Round& round, runtime::Port& port);
@@ -166,6 +162,7 @@ class SubModel final : public runtime::SubModel {
 
   const ModelContext& context_;
   SubModelId id_;
+  Vec3 origin_;  ///< of the world's own numbers
   std::vector<std::uint32_t> members_;
   std::vector<Slot> slots_;
   std::vector<double> radius_, mass_;       ///< by member: bounding radius [m], full mass [kg]

@@ -136,6 +136,10 @@ void write_scene_table(const Scene& scene, const std::filesystem::path& folder) 
   replace_file(folder / kName, j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
+std::string geometry_text(const Scene& scene) {
+  return Json{{"shapes", list_of(scene.shapes)}, {"boundaries", list_of(scene.boundaries)}}.dump();
+}
+
 Scene read_scene_table(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / kName;
   const std::string text = read_file(path);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "physics/scene/scene.hpp"
 
@@ -10,6 +11,9 @@ namespace moraine {
 
 /// Writes folder/shapes.json: name, gravity, time label, shapes, boundaries. Errors: IoError naming the path.
 void write_scene_table(const Scene& scene, const std::filesystem::path& folder);
+
+/// Equal for scenes with equal shapes and boundaries, motions not regarded.
+std::string geometry_text(const Scene& scene);
 
 /// A scene with those members only; no elements, materials or bonds. Errors: IoError naming the path.
 Scene read_scene_table(const std::filesystem::path& folder);

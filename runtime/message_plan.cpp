@@ -38,18 +38,21 @@ void check_ids(std::span<const SubModelId> ids, std::size_t size, const std::str
 
 bool contains(std::span<const SubModelId> ids, SubModelId id) { return std::binary_search(ids.begin(), ids.end(), id); }
 
-/// Every source of `id` must list it among its targets.
-void check_sources(Model& model, SubModelId id, int stage) {
+/// Every source of `id` must list it among its targets. Messages from elsewhere are added to the plan.
+void plan_sources(Model& model, SubModelId id, int stage, std::vector<Message>& plan) {
   const Stage& reading = model.stages()[static_cast<std::size_t>(stage)];
   const auto sources = model.sub_model(id).sources(stage);
   check_ids(sources, model.size(), fmt::format("sources of sub-model {} in stage {}", id, reading.name));
   if (reading.receives == Stage::none && !sources.empty())
     throw std::logic_error(
         fmt::format("sub-model {} has sources in stage {}, which receives nothing", id, reading.name));
-  for (const SubModelId from : sources)
-    if (!contains(model.sub_model(from).targets(reading.receives), id))
+  for (const SubModelId from : sources) {
+    if (!model.placement().holds(from))
+      plan.push_back({from, reading.receives, id, stage});
+    else if (!contains(model.sub_model(from).targets(reading.receives), id))
       throw std::logic_error(fmt::format("stage {}: {} is a source of {}, but {} is not a target of {}", reading.name,
                                          from, id, id, from));
+  }
 }
 
 /// Every target of `id` must list it among its sources; all are added to the plan.
@@ -58,7 +61,9 @@ void plan_targets(Model& model, SubModelId id, int stage, int read_in, std::vect
   const auto targets = model.sub_model(id).targets(stage);
   check_ids(targets, model.size(), fmt::format("targets of sub-model {} in stage {}", id, sending.name));
   for (const SubModelId to : targets) {
-    if (read_in == Stage::none || !contains(model.sub_model(to).sources(read_in), id))
+    const bool expected =
+        read_in != Stage::none && (!model.placement().holds(to) || contains(model.sub_model(to).sources(read_in), id));
+    if (!expected)
       throw std::logic_error(
           fmt::format("stage {}: {} is a target of {}, but {} is not a source of {}", sending.name, to, id, id, to));
     plan.push_back({id, stage, to, read_in});
@@ -71,11 +76,13 @@ std::vector<Message> plan_messages(Model& model) {
   const std::vector<int> receiver = receivers_of(model.stages());
   std::vector<Message> plan;
   for (SubModelId id = 0; id < model.size(); ++id) {
+    if (!model.placement().holds(id)) continue;
     for (int stage = 0; stage < static_cast<int>(receiver.size()); ++stage) {
       plan_targets(model, id, stage, receiver[static_cast<std::size_t>(stage)], plan);
-      check_sources(model, id, stage);
+      plan_sources(model, id, stage, plan);
     }
   }
+  std::sort(plan.begin(), plan.end());
   return plan;
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 namespace moraine::runtime {
-namespace {
 
 std::string what_of(const std::exception_ptr& cause) {
   try {
@@ -16,15 +15,11 @@ std::string what_of(const std::exception_ptr& cause) {
   }
 }
 
-}  // namespace
-
-RunError::RunError(const std::string& stage, SubModelId sub_model, const Round& round, std::exception_ptr cause)
-    : std::runtime_error(fmt::format("{} of sub-model {} in {} {}: {}", stage, sub_model,
-                                     round.opening() ? "the exchange before round" : "round", round.number,
-                                     what_of(cause))),
-      stage_(stage),
-      sub_model_(sub_model),
-      round_(round),
+RunError::RunError(Failure failure, std::exception_ptr cause)
+    : std::runtime_error(fmt::format("rank {}, {} of sub-model {} in {} {}: {}", failure.rank, failure.stage,
+                                     failure.sub_model, failure.round.opening() ? "the exchange before round" : "round",
+                                     failure.round.number, failure.text)),
+      failure_(std::move(failure)),
       cause_(std::move(cause)) {}
 
 }  // namespace moraine::runtime

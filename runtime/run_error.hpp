@@ -10,21 +10,30 @@
 
 namespace moraine::runtime {
 
-/// Says where, and keeps what the task threw: std::rethrow_exception(error.cause()).
+/// Where and why. Plain words, so that it can be told to other ranks.
+struct Failure {
+  int rank = 0;
+  std::string stage;
+  SubModelId sub_model = 0;
+  Round round;
+  std::string text;
+  int status = 0;  ///< exit status that goes with it
+};
+
+/// On the rank where it happened cause() is what the task threw; elsewhere it is empty.
 class RunError : public std::runtime_error {
  public:
-  RunError(const std::string& stage, SubModelId sub_model, const Round& round, std::exception_ptr cause);
+  explicit RunError(Failure failure, std::exception_ptr cause = nullptr);
 
-  const std::string& stage() const { return stage_; }
-  SubModelId sub_model() const { return sub_model_; }
-  const Round& round() const { return round_; }
+  const Failure& failure() const { return failure_; }
   std::exception_ptr cause() const { return cause_; }
 
  private:
-  std::string stage_;
-  SubModelId sub_model_;
-  Round round_;
+  Failure failure_;
   std::exception_ptr cause_;
 };
+
+/// what() of an exception.
+std::string what_of(const std::exception_ptr& cause);
 
 }  // namespace moraine::runtime

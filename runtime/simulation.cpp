@@ -7,59 +7,117 @@
 #include <stdexcept>
 #include <utility>
 
+#include "runtime/agreement.hpp"
+#include "runtime/balance/initial_owners.hpp"
 #include "runtime/cores.hpp"
 #include "runtime/schedule/registry.hpp"
 
 namespace moraine::runtime {
+namespace {
+
+Transport& chosen(Transport* transport) { return transport ? *transport : alone(); }
+
+/// Models of one rank hold everything; others may have been placed by their maker.
+void place_if_new(Model& model, const Transport& transport) {
+  if (!model.placement().owner.empty()) return;
+  const std::vector<double> load(model.size(), 1.0), speed(static_cast<std::size_t>(transport.ranks()), 1.0);
+  model.place({transport.rank(), initial_owners(load, speed)});
+}
+
+}  // namespace
 
 Simulation::Simulation(Model& model, const Options& options, Hooks hooks)
     : model_(model),
       options_(options),
       hooks_(std::move(hooks)),
-      executor_(options.threads == 0 ? usable_cores() : options.threads, find_scheduler(options.scheduler).make()),
-      transport_(options.check_messages) {}
+      transport_(chosen(options.transport)),
+      executor_(options.threads == 0 ? threads_for(transport_) : options.threads,
+                find_scheduler(options.scheduler).make()),
+      mail_(transport_, options.check_messages),
+      balance_(options.balance, transport_),
+      checkpoints_(options.checkpoint, transport_) {
+  place_if_new(model_, transport_);
+}
+
+std::int64_t Simulation::restore(const std::filesystem::path& folder) {
+  const std::int64_t next_round = checkpoints_.restore(folder, model_, balance_);
+  last_ = {};
+  return next_round;
+}
 
 void Simulation::run(std::int64_t first_round, std::int64_t rounds) {
   const std::int64_t end = first_round + rounds;
   for (std::int64_t next = first_round; next < end;) {
-    const Epoch epoch = next_epoch(next, end - next);
+    const auto [epoch, fresh] = next_epoch(next, end - next);
+    if (fresh) settle(next);
     run_epoch(epoch);
     next += epoch.rounds;
     if (hooks_.at_epoch_end) hooks_.at_epoch_end(next);
   }
+  checkpoints_.finish();
 }
 
-Epoch Simulation::next_epoch(std::int64_t next_round, std::int64_t left) {
+Simulation::NextEpoch Simulation::next_epoch(std::int64_t next_round, std::int64_t left) {
   const std::int64_t stop = hooks_.until_next_stop ? hooks_.until_next_stop(next_round) : left;
   if (stop < 1) throw std::logic_error(fmt::format("no round may pass from round {} to the next stop", next_round));
   const std::int64_t at_most = std::min(left, stop);
-  const std::int64_t rounds = model_.begin_epoch(next_round, at_most);
-  if (rounds < 1 || rounds > at_most)
-    throw std::logic_error(fmt::format("an epoch of {} rounds, expected 1 to {}", rounds, at_most));
-  return {next_round, rounds};
+  const EpochPlan plan = model_.begin_epoch(next_round, at_most);
+  if (plan.rounds < 1 || plan.rounds > at_most)
+    throw std::logic_error(fmt::format("an epoch of {} rounds, expected 1 to {}", plan.rounds, at_most));
+  return {{next_round, plan.rounds}, plan.fresh};
+}
+
+/// Neighbours are settled and nothing runs: sub-models may move and be saved.
+void Simulation::settle(std::int64_t next_round) {
+  balance_.settle(model_, next_round);
+  checkpoints_.settle(model_, balance_, next_round);
 }
 
 void Simulation::run_epoch(const Epoch& epoch) {
   const StepGraph graph = predicted_graph();
-  transport_.begin_epoch(model_);
-  last_ = executor_.run(
-      graph, epoch, [&](Task task, int) { run_task(graph, epoch, task); }, hooks_.observer);
+  mail_.begin_epoch(model_, epoch);
+  const std::optional<RunError> error = attempt(graph, epoch);
+  if (const std::optional<RunError> first = first_failure(transport_, error)) throw RunError(*first);
   load_.merge(last_);
+  balance_.note(model_, epoch, last_, mail_.sent());
+}
+
+/// The failure of this rank, if it failed. If another did, this one stops as well.
+std::optional<RunError> Simulation::attempt(const StepGraph& graph, const Epoch& epoch) {
+  try {
+    last_ = executor_.run(
+        graph, epoch, [&](Task task, int) { run_task(graph, epoch, task); }, hooks_.observer,
+        [&](std::vector<Task>& arrived) { mail_.poll(graph, arrived); });
+  } catch (const RunError& error) {
+    tell_others();
+    Failure failure = error.failure();
+    failure.rank = transport_.rank();
+    failure.status = options_.status_of(error.cause());
+    return RunError(std::move(failure), error.cause());
+  } catch (const FailedElsewhere&) {
+  }
+  return std::nullopt;
 }
 
 StepGraph Simulation::predicted_graph() {
   StepGraph graph = build_step_graph(model_);
-  const bool measured = options_.measured_cost && last_.busy() > 0 && last_.nodes.size() == graph.node_count();
-  if (measured) graph.cost = last_.mean_cost();
+  if (options_.measured_cost && last_.busy() > 0) graph.cost = last_.mean_cost(graph);
   return graph;
 }
 
 void Simulation::run_task(const StepGraph& graph, const Epoch& epoch, Task task) {
   const SubModelId id = graph.sub_model(task.node);
   const int stage = graph.stage(task.node);
-  Port& port = transport_.open(id, stage, task.round);
+  Port& port = mail_.open(id, stage, task.round);
   model_.sub_model(id).run(stage, epoch.round(task.round), port);
-  transport_.close(id);
+  mail_.close(id);
 }
+
+void Simulation::tell_others() {
+  for (int rank = 0; rank < transport_.ranks(); ++rank)
+    if (rank != transport_.rank()) transport_.send(rank, pack_failure());
+}
+
+int threads_for(Transport& transport) { return std::max(1, usable_cores() / transport.ranks_on_these_cores()); }
 
 }  // namespace moraine::runtime

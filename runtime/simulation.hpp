@@ -1,26 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop: epochs of rounds of stages of a model.
+// The loop: epochs of rounds of stages of a model, on all ranks.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
+#include "runtime/balance/rebalance.hpp"
+#include "runtime/migrate/checkpoint.hpp"
 #include "runtime/schedule/executor.hpp"
 #include "runtime/sub_model.hpp"
-#include "runtime/transport/loopback.hpp"
+#include "runtime/transport/mail.hpp"
 
 namespace moraine::runtime {
 
 /// None of these changes what is computed.
 struct Options {
-  int threads = 0;                   ///< 0: usable_cores()
+  int threads = 0;                   ///< of this rank; 0: its share of usable_cores()
   std::string scheduler = "hybrid";  ///< a name of schedulers()
   bool measured_cost = false;        ///< predict with the last epoch's times instead of counted work
   bool check_messages = false;       ///< destroy messages once read, to notice late readers
+  Transport* transport = nullptr;    ///< must outlive the simulation; none: this process is alone
+  BalanceOptions balance = {};
+  CheckpointOptions checkpoint = {};
+  /// The exit status that goes with what a task threw.
+  std::function<int(const std::exception_ptr&)> status_of = [](const std::exception_ptr&) { return 1; };
 };
 
-/// What the caller wants to do between epochs. Any may be empty.
+/// What the caller wants to do between epochs. Any may be empty. Called on all ranks.
 struct Hooks {
   /// How many rounds from `next_round` on may pass before at_epoch_end must be called; at least 1.
   std::function<std::int64_t(std::int64_t next_round)> until_next_stop;
@@ -31,30 +39,51 @@ struct Hooks {
 
 class Simulation {
  public:
-  /// `model` must outlive this. Errors: std::invalid_argument for an unknown scheduler or a negative number of threads.
+  /// `model` must outlive this, and is placed on the transport's ranks.
+  /// Errors: std::invalid_argument for unknown names or a negative number of threads.
   Simulation(Model& model, const Options& options, Hooks hooks = {});
 
-  /// Runs rounds first_round .. first_round + rounds - 1. Errors: as Executor::run and build_step_graph; whatever the
-  /// model and the hooks throw between epochs. After an error the model is in no defined state.
+  /// Continues from a checkpoint in `folder` instead of from the model as it is. Returns the first round to run.
+  /// Errors: CheckpointError.
+  std::int64_t restore(const std::filesystem::path& folder);
+
+  /// Runs rounds first_round .. first_round + rounds - 1. Errors: RunError, the same on every rank; as
+  /// build_step_graph; whatever the model and the hooks throw between epochs. After an error the model is in no defined
+  /// state.
   void run(std::int64_t first_round, std::int64_t rounds);
 
   int threads() const { return executor_.workers(); }
-  /// Of all rounds so far. What happens between epochs is not in it.
+  Transport& transport() const { return transport_; }
+  /// Of this rank, of all rounds so far. What happens between epochs is not in it.
   const LoadRecord& load() const { return load_; }
+  const Rebalance& balance() const { return balance_; }
 
  private:
-  Epoch next_epoch(std::int64_t next_round, std::int64_t left);
+  struct NextEpoch {
+    Epoch epoch;
+    bool fresh = true;
+  };
+  NextEpoch next_epoch(std::int64_t next_round, std::int64_t left);
+  void settle(std::int64_t next_round);
   StepGraph predicted_graph();
   void run_epoch(const Epoch& epoch);
+  std::optional<RunError> attempt(const StepGraph& graph, const Epoch& epoch);
   void run_task(const StepGraph& graph, const Epoch& epoch, Task task);
+  void tell_others();
 
   Model& model_;
   Options options_;
   Hooks hooks_;
+  Transport& transport_;
   Executor executor_;
-  LoopbackTransport transport_;
+  Mail mail_;
+  Rebalance balance_;
+  Checkpoints checkpoints_;
   LoadRecord load_;
   LoadRecord last_;  ///< the last epoch's
 };
+
+/// Cores that each of the ranks on this machine may use without taking turns; at least 1. Collective.
+int threads_for(Transport& transport);
 
 }  // namespace moraine::runtime

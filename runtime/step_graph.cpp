@@ -14,7 +14,7 @@ namespace {
 
 void add_own_order(const StepGraph& graph, std::vector<Link>& links) {
   const int last = static_cast<int>(graph.stages.size()) - 1;
-  for (SubModelId s = 0; s < graph.sub_models; ++s) {
+  for (std::size_t s = 0; s < graph.sub_models; ++s) {
     for (int stage = 0; stage < last; ++stage) links.push_back({graph.node(s, stage), graph.node(s, stage + 1), false});
     if (last >= 0) links.push_back({graph.node(s, last), graph.node(s, 0), true});
   }
@@ -74,15 +74,32 @@ void add_slot_free(Model& model, const StepGraph& graph, const Message& message,
   const int read = message.read_in + (same_round ? 0 : count);
   if (message.from == message.to || reading_is_awaited(model, message, read, 2 * count + message.sent_in)) return;
   const int waiting = same_round ? count - 1 : message.sent_in;
-  links.push_back({graph.node(message.to, message.read_in), graph.node(message.from, waiting), true});
+  links.push_back({graph.node(graph.place_of(message.to), message.read_in),
+                   graph.node(graph.place_of(message.from), waiting), true});
 }
 
 std::vector<double> counted_work(Model& model) {
   std::vector<double> cost;
   const int stages = static_cast<int>(model.stages().size());
   for (SubModelId s = 0; s < model.size(); ++s)
-    for (int stage = 0; stage < stages; ++stage) cost.push_back(model.sub_model(s).counted_work(stage));
+    for (int stage = 0; stage < stages && model.placement().holds(s); ++stage)
+      cost.push_back(model.sub_model(s).counted_work(stage));
   return cost;
+}
+
+/// A message from elsewhere is one predecessor more. None comes from before the opening round.
+void await_message(StepGraph& graph, const Message& message) {
+  const NodeId node = graph.node(graph.place_of(message.to), message.read_in);
+  ++graph.predecessors[node];
+  if (!message.next_round()) ++graph.opening_predecessors[node];
+  graph.awaits_messages = true;
+}
+
+std::vector<SubModelId> held(const Model& model) {
+  std::vector<SubModelId> ids;
+  for (SubModelId id = 0; id < model.size(); ++id)
+    if (model.placement().holds(id)) ids.push_back(id);
+  return ids;
 }
 
 }  // namespace
@@ -91,6 +108,8 @@ StepGraph assemble_graph(std::vector<std::string> stages, std::size_t sub_models
                          std::vector<double> cost) {
   StepGraph graph;
   graph.sub_models = sub_models;
+  graph.ids.resize(sub_models);
+  std::iota(graph.ids.begin(), graph.ids.end(), SubModelId{0});
   graph.stages = std::move(stages);
   graph.cost = std::move(cost);
   if (graph.cost.size() != graph.node_count()) throw std::logic_error("a graph needs one cost per node");
@@ -108,14 +127,25 @@ StepGraph assemble_graph(std::vector<std::string> stages, std::size_t sub_models
 
 StepGraph build_step_graph(Model& model) {
   StepGraph shape;
-  shape.sub_models = model.size();
+  shape.ids = held(model);
+  shape.sub_models = shape.ids.size();
   for (const Stage& stage : model.stages()) shape.stages.emplace_back(stage.name);
   std::vector<Link> links;
+  std::vector<Message> from_elsewhere;
   for (const Message& m : plan_messages(model)) {
-    links.push_back({shape.node(m.from, m.sent_in), shape.node(m.to, m.read_in), m.sent_in >= m.read_in});
+    if (!model.placement().holds(m.to)) continue;
+    if (!model.placement().holds(m.from)) {
+      from_elsewhere.push_back(m);
+      continue;
+    }
+    links.push_back(
+        {shape.node(shape.place_of(m.from), m.sent_in), shape.node(shape.place_of(m.to), m.read_in), m.next_round()});
     add_slot_free(model, shape, m, links);
   }
-  return assemble_graph(std::move(shape.stages), shape.sub_models, std::move(links), counted_work(model));
+  StepGraph graph = assemble_graph(shape.stages, shape.sub_models, std::move(links), counted_work(model));
+  graph.ids = shape.ids;
+  for (const Message& m : from_elsewhere) await_message(graph, m);
+  return graph;
 }
 
 }  // namespace moraine::runtime

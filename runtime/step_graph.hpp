@@ -2,6 +2,7 @@
 // Stages x sub-models x neighbours of one round, as plain data. Every round of an epoch has the same graph.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,7 +13,7 @@
 
 namespace moraine::runtime {
 
-/// A (sub-model, stage) pair: sub_model * stage count + stage.
+/// A (sub-model, stage) pair: place of the sub-model * stage count + stage.
 using NodeId = std::uint32_t;
 
 /// A node in one round. Rounds count from 0, the opening round of the epoch.
@@ -40,8 +41,10 @@ struct Successors {
 };
 
 struct StepGraph {
-  std::size_t sub_models = 0;
+  std::size_t sub_models = 0;       ///< in this graph: those held here
+  std::vector<SubModelId> ids;      ///< by place, ascending
   std::vector<std::string> stages;  ///< names
+  bool awaits_messages = false;     ///< some predecessors are messages from elsewhere
   Successors same_round;
   Successors next_round;
   std::vector<std::uint32_t> predecessors;          ///< per node, in every round but the first
@@ -49,23 +52,28 @@ struct StepGraph {
   std::vector<double> cost;                         ///< predicted, per node, any unit
 
   std::size_t node_count() const { return sub_models * stages.size(); }
-  NodeId node(SubModelId sub_model, int stage) const {
-    return static_cast<NodeId>(sub_model * stages.size() + static_cast<std::size_t>(stage));
+  NodeId node(std::size_t place, int stage) const {
+    return static_cast<NodeId>(place * stages.size() + static_cast<std::size_t>(stage));
   }
-  SubModelId sub_model(NodeId node) const { return static_cast<SubModelId>(node / stages.size()); }
+  std::size_t place(NodeId node) const { return node / stages.size(); }
+  /// Of a sub-model held here.
+  std::size_t place_of(SubModelId id) const {
+    return static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
+  }
+  SubModelId sub_model(NodeId node) const { return ids[place(node)]; }
   int stage(NodeId node) const { return static_cast<int>(node % stages.size()); }
 };
 
-/// Adds to `links` that a sub-model runs its stages in order, and sorts all into a graph. `cost` has one value per
-/// node; if none is positive, all nodes are taken to cost the same. Errors: std::logic_error for a link within a round
-/// that does not lead to a later stage. Cost: sorts the links.
+/// Adds to `links` that a sub-model runs its stages in order, and sorts all into a graph of sub-models 0, 1, ....
+/// `cost` has one value per node; if none is positive, all nodes are taken to cost the same. Errors: std::logic_error
+/// for a link within a round that does not lead to a later stage. Cost: sorts the links.
 StepGraph assemble_graph(std::vector<std::string> stages, std::size_t sub_models, std::vector<Link> links,
                          std::vector<double> cost);
 
-/// The graph of the model's present neighbours, with counted work as cost. A message has two slots, used by turns, so a
-/// link back keeps a sender from overwriting what its receiver has yet to read, wherever the other messages do not.
-/// Errors: std::logic_error if sources and targets do not mirror each other, are not ascending, or a stage has two
-/// receivers.
+/// The graph of the sub-models held here with their present neighbours, and counted work as cost. Messages from
+/// elsewhere count as predecessors. A message within this process has two slots, used by turns, so a link back keeps a
+/// sender from overwriting what its receiver has yet to read, wherever the other messages do not. Errors:
+/// std::logic_error if sources and targets do not mirror each other, are not ascending, or a stage has two receivers.
 StepGraph build_step_graph(Model& model);
 
 }  // namespace moraine::runtime

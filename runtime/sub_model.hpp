@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace moraine::runtime {
@@ -53,20 +54,50 @@ class SubModel {
   virtual void run(int stage, const Round& round, Port& port) = 0;
   /// Work of a stage in the last round, counted not clocked: predictions made from it are the same everywhere.
   virtual double counted_work(int stage) const = 0;
+  /// Bytes that it takes, about: what moving it costs follows.
+  virtual double memory() const { return 0; }
+  /// Exact, between being settled for an epoch and its first round.
   virtual void save(std::vector<std::byte>& out) const = 0;
   virtual void load(std::span<const std::byte> in) = 0;
 };
 
-/// A set of sub-models that together are one model.
+/// Which rank owns which sub-model. Every rank knows all of it.
+struct Placement {
+  int rank = 0;              ///< this one
+  std::vector<int> owner{};  ///< rank of each sub-model; empty: all are here
+  bool holds(SubModelId id) const { return owner.empty() || owner[id] == rank; }
+};
+
+struct EpochPlan {
+  std::int64_t rounds = 1;  ///< that the neighbours hold
+  bool fresh = true;        ///< neighbours were settled anew: sub-models may be saved and moved before it is run
+};
+
+/// A set of sub-models that together are one model. On several ranks each has a model of its own, which holds the
+/// sub-models that this rank owns.
 class Model {
  public:
   virtual ~Model() = default;
   virtual std::span<const Stage> stages() const = 0;
+  /// Of the whole model, wherever they are.
   virtual std::size_t size() const = 0;
+  /// One that is held here.
   virtual SubModel& sub_model(SubModelId id) = 0;
-  /// Called between epochs while nothing runs: settles neighbours, may move work between sub-models. Returns how many
-  /// rounds the neighbours hold, at least 1 and at most `at_most`. Must not depend on threads, ranks or time.
-  virtual std::int64_t begin_epoch(std::int64_t next_round, std::int64_t at_most) = 0;
+  /// Called between epochs while nothing runs, on all ranks: settles neighbours, may move work between sub-models. At
+  /// least 1 and at most `at_most` rounds. Must not depend on threads, ranks or time.
+  virtual EpochPlan begin_epoch(std::int64_t next_round, std::int64_t at_most) = 0;
+  /// What is known of all sub-models together, the same on every rank. For checkpoints.
+  virtual void save_common(std::vector<std::byte>&) const {}
+  virtual void load_common(std::span<const std::byte>) {}
+
+  const Placement& placement() const { return placement_; }
+  /// Owners change; what leaves is released, what comes is adopted.
+  void place(Placement placement) { placement_ = std::move(placement); }
+  virtual void release(SubModelId) {}
+  virtual void adopt(SubModelId id, std::span<const std::byte> saved) { sub_model(id).load(saved); }
+
+ private:
+  Placement placement_;
 };
 
 }  // namespace moraine::runtime

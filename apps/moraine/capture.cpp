@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include "ghosting/collect.hpp"
+#include "ghosting/fields.hpp"
 #include "ghosting/state_hash.hpp"
 
 namespace moraine::app {
@@ -15,9 +17,18 @@ std::uint64_t peak_rss_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
+double sum_over_ranks(runtime::Transport& transport, double own) {
+  runtime::Bytes told;
+  ByteWriter(told).put(own);
+  double sum = 0;
+  for (const runtime::Bytes& b : all_gather(transport, told)) sum += ByteReader(b).get<double>();
+  return sum;
+}
+
 Frame::Bodies capture_elements(const CoupledModel& model) {
   Frame::Bodies out;
-  out.state = model.states();
+  out.state = model.states(0);
+  if (out.state.empty()) return out;
   out.sub_model = model.owners();
   for (const Element& e : model.scene().elements) {
     out.id.push_back(e.id);
@@ -26,33 +37,45 @@ Frame::Bodies capture_elements(const CoupledModel& model) {
   return out;
 }
 
-Frame::Bodies capture_ghosts(const CoupledModel& model) {
+runtime::Bytes ghosts_in(const SubModel& part) {
+  std::vector<std::pair<std::uint32_t, Slot>> here;
+  for (const HostLink& link : part.host_links())
+    for (const Ghost& g : link.ghosts) here.emplace_back(g.element, g.slot);
+  std::sort(here.begin(), here.end());
+  runtime::Bytes out;
+  ByteWriter w(out);
+  for (const auto& [element, slot] : here) {
+    const ElementState state = part.world().state(slot);
+    w.put(element);
+    fields::all(w, state);
+  }
+  return out;
+}
+
+Frame::Bodies capture_ghosts(const CoupledModel& model, runtime::Transport& transport) {
   Frame::Bodies out;
-  for (std::size_t p = 0; p < model.size(); ++p) {
-    std::vector<std::pair<std::uint32_t, Slot>> here;
-    for (const HostLink& link : model.part(p).host_links())
-      for (const Ghost& g : link.ghosts) here.emplace_back(g.element, g.slot);
-    std::sort(here.begin(), here.end());
-    for (const auto& [element, slot] : here) {
-      const Element& e = model.scene().elements[element];
+  const auto told = collect(
+      model, transport, [&](SubModelId id) { return ghosts_in(model.part(id)); }, 0);
+  for (std::size_t p = 0; p < told.size(); ++p)
+    for (ByteReader r(told[p]); !r.at_end();) {
+      const Element& e = model.scene().elements[r.get<std::uint32_t>()];
       out.id.push_back(e.id);
       out.sub_model.push_back(static_cast<SubModelId>(p));
-      out.state.push_back(model.part(p).world().state(slot));
+      fields::all(r, out.state.emplace_back());
       out.shape.push_back(e.shape);
     }
-  }
   return out;
 }
 
 }  // namespace
 
-Frame capture(const CoupledModel& model, std::int64_t step) {
+Frame capture(const CoupledModel& model, runtime::Transport& transport, std::int64_t step) {
   const Scene& scene = model.scene();
   Frame frame;
   frame.step = step;
   frame.time = static_cast<double>(step) * scene.time.dt;
   frame.elements = capture_elements(model);
-  frame.ghosts = capture_ghosts(model);
+  frame.ghosts = capture_ghosts(model, transport);
   frame.bonds = model.alive_bonds();
   for (const Boundary& b : scene.boundaries) frame.boundary_poses.push_back(b.motion.pose(b.pose, frame.time));
   return frame;
@@ -62,10 +85,11 @@ Summary summarise(const CoupledModel& model, const runtime::Simulation& simulati
   const Scene& scene = model.scene();
   const ModelStatistics statistics = model.statistics();
   const OverlapStatistics overlaps = model.overlaps();
-  const runtime::LoadRecord& load = simulation.load();
+  runtime::Transport& transport = simulation.transport();
+  const runtime::LoadRecord load = all_ranks(simulation.load(), transport);
   const Frame::Bodies elements = capture_elements(model);
   const auto share = [&](double ghosts) {
-    return elements.size() == 0 ? 0 : ghosts / static_cast<double>(elements.size());
+    return scene.elements.empty() ? 0 : ghosts / static_cast<double>(scene.elements.size());
   };
 
   Summary s;
@@ -75,9 +99,10 @@ Summary summarise(const CoupledModel& model, const runtime::Simulation& simulati
   s.coupling = model.coupling().name;
   s.split = model.split().name;
   s.scheduler = scene.run.scheduler;
-  s.balancer = "none";
+  s.balancer = scene.run.balancer;
+  s.ranks = transport.ranks();
   s.threads_per_rank = simulation.threads();
-  s.elements = elements.size();
+  s.elements = scene.elements.size();
   s.sub_models = static_cast<std::uint32_t>(model.size());
   s.steps = scene.time.steps;
   s.substeps = scene.time.substeps;
@@ -87,8 +112,8 @@ Summary summarise(const CoupledModel& model, const runtime::Simulation& simulati
   s.loop_wall_s = loop_wall_s;
   const double element_steps = static_cast<double>(s.elements) * static_cast<double>(s.steps) * s.substeps;
   s.element_steps_per_s = loop_wall_s > 0 ? element_steps / loop_wall_s : 0;
-  s.peak_rss_bytes = peak_rss_bytes();
-  s.state_hash = fmt::format("{:016x}", state_hash(scene, elements.state));
+  s.peak_rss_bytes = static_cast<std::uint64_t>(sum_over_ranks(transport, static_cast<double>(peak_rss_bytes())));
+  if (transport.rank() == 0) s.state_hash = fmt::format("{:016x}", state_hash(scene, elements.state));
   s.ghosts = {statistics.ghosts_mean, statistics.ghosts_max, statistics.ghosts_now, share(statistics.ghosts_mean),
               share(static_cast<double>(statistics.ghosts_now))};
   s.bonds = {scene.bonds.size(), statistics.bonds_broken};
@@ -101,7 +126,8 @@ Summary summarise(const CoupledModel& model, const runtime::Simulation& simulati
   s.x95 = x_quantile(elements, 0.95);
   s.overlap = {overlaps.max, overlaps.mean};
   s.coupling_residual = statistics.coupling_residual;
-  s.load = {load.imbalance(), load.utilisation(), load.waiting_fraction(), 0};
+  s.load = {load.imbalance(), load.utilisation(), load.waiting_fraction(),
+            static_cast<std::uint64_t>(simulation.balance().migrations())};
   for (std::size_t i = 0; i < load.stages.size(); ++i)
     s.step_share[std::string(SubModel::stages()[i].name)] = load.busy() > 0 ? load.stages[i].seconds / load.busy() : 0;
   s.recuts = statistics.recuts;

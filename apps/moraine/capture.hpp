@@ -9,7 +9,9 @@
 
 namespace moraine::app {
 
-Frame capture(const CoupledModel& model, std::int64_t step);
+/// Collective; complete on rank 0, empty elsewhere.
+Frame capture(const CoupledModel& model, runtime::Transport& transport, std::int64_t step);
+/// Collective; complete on rank 0.
 Summary summarise(const CoupledModel& model, const runtime::Simulation& simulation, double wall_s, double loop_wall_s);
 
 }  // namespace moraine::app

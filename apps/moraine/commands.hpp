@@ -5,10 +5,12 @@
 #include <filesystem>
 
 #include "physics/scene/scene.hpp"
+#include "runtime/transport/transport.hpp"
 
 namespace moraine::app {
 
-int run(const Scene& scene);
+/// Called on all ranks.
+int run(const Scene& scene, runtime::Transport& transport);
 int info(const Scene& scene);
 int list();
 int render(const std::filesystem::path& folder, int width);

@@ -3,12 +3,18 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
+#include <functional>
 #include <iostream>
+#include <optional>
+#include <thread>
 
 #include "commands.hpp"
 #include "options.hpp"
 #include "physics/errors.hpp"
+#include "runtime/migrate/checkpoint.hpp"
 #include "runtime/run_error.hpp"
+#include "runtime/transport/mpi_session.hpp"
 
 namespace {
 
@@ -16,26 +22,62 @@ using moraine::InputError;
 using moraine::InvalidStateError;
 using moraine::IoError;
 
-int fail(const std::string& text, int status) {
-  std::cerr << "moraine: " << text << '\n';
+/// An error, said in words that a user can act on.
+struct Trouble {
+  std::string text;
+  int status;
+  bool everywhere;  ///< all ranks have agreed on it and end by themselves
+};
+
+/// A failed task counts as what it threw.
+std::optional<Trouble> attempt(const std::function<void()>& command) {
+  try {
+    command();
+  } catch (const moraine::runtime::RunError& e) {
+    return Trouble{e.what(), e.failure().status, true};
+  } catch (const moraine::runtime::CheckpointError& e) {
+    return Trouble{e.what(), InputError::exit_status, true};
+  } catch (const std::invalid_argument& e) {  // an unknown scheduler or number of threads
+    return Trouble{e.what(), InputError::exit_status, false};
+  } catch (const InputError& e) {
+    return Trouble{e.what(), InputError::exit_status, false};
+  } catch (const InvalidStateError& e) {
+    return Trouble{e.what(), InvalidStateError::exit_status, false};
+  } catch (const std::exception& e) {
+    return Trouble{e.what(), IoError::exit_status, false};
+  }
+  return std::nullopt;
+}
+
+int report(const Trouble& trouble) {
+  std::cerr << "moraine: " << trouble.text << '\n';
+  return trouble.status;
+}
+
+/// Exit status by kind of error.
+int guarded(const std::function<int()>& command) {
+  int status = 0;
+  const auto trouble = attempt([&] { status = command(); });
+  return trouble ? report(*trouble) : status;
+}
+
+/// The same for a command that all ranks run. One that fails alone must not leave the others waiting: it ends them all,
+/// after a moment in which the first rank, if it has the same trouble, may speak for all.
+int guarded(moraine::runtime::Transport& transport, const std::function<int()>& command) {
+  int status = 0;
+  const auto trouble = attempt([&] { status = command(); });
+  if (!trouble) return status;
+  if (transport.ranks() == 1) return report(*trouble);
+  if (trouble->everywhere) return transport.rank() == 0 ? report(*trouble) : trouble->status;
+  if (transport.rank() != 0) std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  status = report(*trouble);
+  transport.abort(status);
   return status;
 }
 
-/// Exit status by kind of error; a failed task counts as what it threw.
-int guarded(const std::function<int()>& command) {
-  try {
-    return command();
-  } catch (const moraine::runtime::RunError& e) {
-    return guarded([&]() -> int { std::rethrow_exception(e.cause()); });
-  } catch (const std::invalid_argument& e) {  // an unknown scheduler or number of threads
-    return fail(e.what(), InputError::exit_status);
-  } catch (const InputError& e) {
-    return fail(e.what(), InputError::exit_status);
-  } catch (const InvalidStateError& e) {
-    return fail(e.what(), InvalidStateError::exit_status);
-  } catch (const std::exception& e) {
-    return fail(e.what(), IoError::exit_status);
-  }
+int run_everywhere(const std::function<moraine::Scene()>& read) {
+  moraine::runtime::MpiSession session;
+  return guarded(session.transport(), [&] { return moraine::app::run(read(), session.transport()); });
 }
 
 }  // namespace
@@ -47,9 +89,9 @@ int main(int argc, char** argv) {
 
   moraine::app::SceneOptions run_options, info_options;
   bool quiet = false;
-  CLI::App* run = app.add_subcommand("run", "run a scene");
-  run_options.add_to(*run);
-  run->add_flag("--quiet", quiet, "no progress, only the closing summary's warnings")->envname("MORAINE_QUIET");
+  CLI::App* run_command = app.add_subcommand("run", "run a scene");
+  run_options.add_to(*run_command);
+  run_command->add_flag("--quiet", quiet, "no progress, only the closing summary's warnings")->envname("MORAINE_QUIET");
   CLI::App* info = app.add_subcommand("info", "what would run, without running it");
   info_options.add_to(*info);
   CLI::App* list = app.add_subcommand("list", "engines, splits, couplings, schedulers, output formats");
@@ -64,12 +106,13 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : InputError::exit_status;
   }
-  return guarded([&] {
-    if (*run) {
+  if (*run_command)
+    return run_everywhere([&] {
       moraine::Scene scene = run_options.read();
       scene.output.quiet = scene.output.quiet || quiet;
-      return moraine::app::run(scene);
-    }
+      return scene;
+    });
+  return guarded([&] {
     if (*info) return moraine::app::info(info_options.read());
     if (*list) return moraine::app::list();
     return moraine::app::render(folder, width);

@@ -24,13 +24,17 @@ constexpr std::array table{
     Row{"--steps", "time.steps", "number of steps"},
     Row{"--dt", "time.dt", "one step [s]"},
     Row{"--substeps", "time.substeps", "engine steps per step; sub-models are coupled after each"},
-    Row{"--threads", "run.threads", "worker threads (default: the cores this process may use)"},
+    Row{"--threads", "run.threads", "worker threads of each rank (default: its share of the cores it may use)"},
     Row{"--engine", "run.engine", "engine, see 'moraine list'"},
     Row{"--sub-models", "run.sub_models", "number of sub-models, or auto"},
     Row{"--split", "run.split", "how the scene is cut, see 'moraine list'"},
     Row{"--coupling", "run.coupling", "how sub-models are coupled, see 'moraine list'"},
     Row{"--iterations", "run.iterations", "solver iterations per substep"},
     Row{"--scheduler", "run.scheduler", "order of tasks, see 'moraine list'"},
+    Row{"--balancer", "run.balancer", "which rank owns which sub-model, see 'moraine list'"},
+    Row{"--balance-every", "run.balance_every", "steps from one balance to the next, at least"},
+    Row{"--checkpoint-every", "run.checkpoint_every", "steps from one checkpoint to the next, at least; 0: none"},
+    Row{"--restart", "run.restart", "go on from a checkpoint: its folder, or 'latest' of --out"},
     Row{"--output-every", "output.every", "steps between frames; 0: first and last only"},
 };
 

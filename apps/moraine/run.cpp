@@ -6,12 +6,16 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 #include "capture.hpp"
 #include "commands.hpp"
+#include "identity.hpp"
+#include "interrupted.hpp"
 #include "output/background.hpp"
 #include "output/progress.hpp"
 #include "physics/errors.hpp"
+#include "runtime/cores.hpp"
 #include "runtime/simulation.hpp"
 
 namespace moraine::app {
@@ -26,38 +30,78 @@ std::filesystem::path folder_of(const Scene& scene) {
   return std::filesystem::path("out") / scene.name;
 }
 
-/// A run in progress: the model, where its results go, and the clock.
+int status_of(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const InputError&) {
+    return InputError::exit_status;
+  } catch (const InvalidStateError&) {
+    return InvalidStateError::exit_status;
+  } catch (...) {
+    return IoError::exit_status;
+  }
+}
+
+std::filesystem::path checkpoint_folder(const Scene& scene) { return folder_of(scene) / "checkpoints"; }
+
+/// The folder that --restart means.
+std::filesystem::path restart_folder(const Scene& scene) {
+  if (scene.run.restart != "latest") return scene.run.restart;
+  const auto complete = runtime::list_checkpoints(checkpoint_folder(scene));
+  if (complete.empty())
+    throw InputError(
+        fmt::format("--restart latest: {} holds no complete checkpoint, expected one made with "
+                    "--checkpoint-every",
+                    checkpoint_folder(scene).string()));
+  return complete.front();
+}
+
+/// A run in progress: the model, where its results go (from rank 0), and the clock.
 class Run {
  public:
-  explicit Run(const Scene& scene)
+  Run(const Scene& scene, runtime::Transport& transport)
       : scene_(scene),
-        model_(scene),
-        writer_(scene, folder_of(scene)),
-        progress_(scene, scene.output.quiet),
-        simulation_(model_, options(scene),
+        transport_(transport),
+        model_(scene, transport),
+        simulation_(model_, options(scene, transport),
                     {.until_next_stop = [this](std::int64_t round) { return until_next_frame(round); },
                      .at_epoch_end = [this](std::int64_t round) { epoch_done(round); },
-                     .observer = nullptr}) {}
+                     .observer = nullptr}),
+        first_round_(scene.run.restart.empty() ? 0 : simulation_.restore(restart_folder(scene))),
+        progress_(scene, scene.output.quiet || !writes(), first_round_ / scene.time.substeps) {
+    if (writes()) writer_.emplace(scene, folder_of(scene));
+  }
 
   Summary go() {
-    writer_.push(capture(model_, 0));
+    if (first_round_ == 0) write_frame(0);
     const auto loop = Clock::now();
-    simulation_.run(0, rounds());
+    simulation_.run(first_round_, rounds() - first_round_);
     const double loop_wall = since(loop);
     progress_.finish();
-    writer_.push(capture(model_, scene_.time.steps));
-    writer_.finish();
+    write_frame(scene_.time.steps);
+    if (writes()) writer_->finish();
     return summarise(model_, simulation_, since(begin_), loop_wall);
   }
 
  private:
-  static runtime::Options options(const Scene& scene) {
-    return {.threads = scene.run.threads,
-            .scheduler = scene.run.scheduler,
-            .measured_cost = false,
-            .check_messages = false};
+  static runtime::Options options(const Scene& scene, runtime::Transport& transport) {
+    const RunSettings& run = scene.run;
+    const std::int64_t substeps = scene.time.substeps;
+    runtime::Options o;
+    o.threads = run.threads;
+    o.scheduler = run.scheduler;
+    o.transport = &transport;
+    o.balance.balancer = run.balancer;
+    o.balance.every = run.balance_every * substeps;
+    o.balance.measured = run.balance_measured;
+    o.checkpoint.folder = checkpoint_folder(scene);
+    o.checkpoint.every = run.checkpoint_every * substeps;
+    o.checkpoint.run = identity(scene);
+    o.status_of = status_of;
+    return o;
   }
 
+  bool writes() const { return transport_.rank() == 0; }
   std::int64_t rounds() const { return scene_.time.steps * scene_.time.substeps; }
   std::int64_t rounds_per_frame() const { return std::int64_t{scene_.output.every} * scene_.time.substeps; }
 
@@ -69,19 +113,36 @@ class Run {
 
   void epoch_done(std::int64_t round) {
     const std::int64_t step = round / scene_.time.substeps;
-    progress_.update({step, static_cast<double>(round) * scene_.time.substep(), model_.ghosts_now(),
+    progress_.update({step, static_cast<double>(round) * scene_.time.substep(), model_.ghosts_at_epoch(),
                       simulation_.load().imbalance()});
     const std::int64_t period = rounds_per_frame();
-    if (period > 0 && round % period == 0 && round < rounds()) writer_.push(capture(model_, step));
+    if (period > 0 && round % period == 0 && round < rounds()) write_frame(step);
+  }
+
+  void write_frame(std::int64_t step) {
+    Frame frame = capture(model_, transport_, step);
+    if (writes()) writer_->push(std::move(frame));
   }
 
   const Scene& scene_;
+  runtime::Transport& transport_;
   Clock::time_point begin_ = Clock::now();
   CoupledModel model_;
-  BackgroundWriter writer_;
-  Progress progress_;
   runtime::Simulation simulation_;
+  std::int64_t first_round_;
+  Progress progress_;
+  std::optional<BackgroundWriter> writer_;  ///< on rank 0
 };
+
+/// What this rank may use, for someone who wonders why it is slow.
+void print_layout(const Scene& scene, runtime::Transport& transport) {
+  const int threads = scene.run.threads > 0 ? scene.run.threads : runtime::threads_for(transport);
+  const std::string own =
+      fmt::format("rank {}: {} thread(s) on cores {}", transport.rank(), threads, runtime::bound_to());
+  const auto* letters = reinterpret_cast<const std::byte*>(own.data());
+  for (const runtime::Bytes& b : gather(transport, 0, runtime::Bytes(letters, letters + own.size())))
+    std::cerr << std::string_view(reinterpret_cast<const char*>(b.data()), b.size()) << '\n';
+}
 
 /// A folder that cannot be written is wrong input, and is found out before anything is computed.
 void check_folder(const std::filesystem::path& folder) {
@@ -93,12 +154,32 @@ void check_folder(const std::filesystem::path& folder) {
   std::filesystem::remove(probe, error);
 }
 
+std::string resume_note(const Scene& scene) {
+  return fmt::format("moraine: stopped; to go on from the last checkpoint in {}, add --restart latest\n",
+                     checkpoint_folder(scene).string());
+}
+
+Summary run_all(const Scene& scene, runtime::Transport& transport) {
+  if (scene.run.checkpoint_every == 0) return Run(scene, transport).go();
+  const LastWord last_word(resume_note(scene), folder_of(scene) / ".stopped");
+  try {
+    return Run(scene, transport).go();
+  } catch (const runtime::RunError&) {
+    if (transport.rank() == 0) std::cerr << resume_note(scene);
+    throw;
+  }
+}
+
 }  // namespace
 
-int run(const Scene& scene) {
-  check_folder(folder_of(scene));
-  for (const std::string& warning : scene.warnings) std::cerr << "moraine: warning: " << warning << '\n';
-  const Summary summary = Run(scene).go();
+int run(const Scene& scene, runtime::Transport& transport) {
+  const bool first = transport.rank() == 0;
+  if (first) check_folder(folder_of(scene));
+  if (first)
+    for (const std::string& warning : scene.warnings) std::cerr << "moraine: warning: " << warning << '\n';
+  if (transport.ranks() > 1 && !scene.output.quiet) print_layout(scene, transport);
+  const Summary summary = run_all(scene, transport);
+  if (!first) return 0;
   const std::filesystem::path folder = folder_of(scene);
   write_summary(summary, folder / "summary.json");
   if (!scene.output.quiet) std::cout << summary_text(summary) << "results in " << folder.string() << '\n';

@@ -85,7 +85,9 @@ bool one_manifold(const btCollisionObject* a, const btCollisionObject* b) {
 
 }  // namespace
 
+/// Which pairs are listed depends on when they were listed last; and contacts of compounds cannot be put back.
 void BulletWorld::canonicalise() {
+  broadphase_.list_now(&dispatcher_);
   broadphase_.forget_contacts(
       &dispatcher_, [](const btCollisionObject* a, const btCollisionObject* b) { return !one_manifold(a, b); });
 }
@@ -113,6 +115,7 @@ void BulletWorld::save(std::vector<std::byte>& out) const {
     copy(e.body->getAngularVelocity(), b.angular);
     bodies.push_back(b);
   }
+  w.put(time_);
   w.put(static_cast<std::uint64_t>(entries_.size()));
   w.put_all(std::span<const BodyImage>(bodies));
   w.put_all(std::span<const Slot>(free_slots_));
@@ -151,6 +154,8 @@ void BulletWorld::load(std::span<const std::byte> in) {
   if (r.get<std::uint32_t>() != magic || r.get<std::uint32_t>() != version)
     throw IoError("saved state is not of this version of the bullet engine");
   clear();
+  time_ = r.get<double>();
+  move_boundaries(time_);
   entries_.resize(r.get<std::uint64_t>());
   for (auto& e : entries_) e = std::make_unique<Entry>();
   std::vector<BodyImage> bodies;

@@ -117,10 +117,8 @@ void BulletWorld::remove(Slot slot) {
 
 void BulletWorld::set_state(Slot slot, const ElementState& state) {
   btRigidBody& body = *entry(slot).body;
-  if (entry(slot).tag.spherical)
-    body.setWorldTransform(units_.pose(state.pose));  // a sphere's inertia does not turn
-  else
-    body.setCenterOfMassTransform(units_.pose(state.pose));
+  // With the inertia, also a sphere's: it turns by rounding, which a saved world must not remember.
+  body.setCenterOfMassTransform(units_.pose(state.pose));
   body.setLinearVelocity(Units::raw(Vec3(state.twist.linear / units_.velocity())));
   body.setAngularVelocity(Units::raw(Vec3(state.twist.angular * units_.time)));
 }
@@ -190,6 +188,7 @@ void BulletWorld::clear() {
 
 void BulletWorld::step(double t) {
   use_pair_laws();
+  time_ = t;
   move_boundaries(t);
   dynamics_.stepSimulation(static_cast<btScalar>(settings_.substep / units_.time), 0);
   sum_boundary_impulse();

@@ -90,6 +90,7 @@ class BulletWorld final : public World {
   BondSolver solver_;
   Dynamics dynamics_;
 
+  double time_ = 0;  ///< at the start of the last step [s]: where driven boundaries stand
   Impulse boundary_impulse_;
   std::size_t bodies_ = 0;
 };

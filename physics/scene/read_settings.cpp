@@ -38,6 +38,15 @@ void read_label(const Node& node, TimeSettings::Label& label) {
   label.per_step = node.at("per_step", "units per step").positive();
 }
 
+/// balance_by: counted or measured.
+bool read_measured(const Node& node) {
+  const auto found = node.find("balance_by");
+  if (!found || found->text() == "counted") return false;
+  if (found->text() != "measured")
+    found->fail(fmt::format("unknown kind of load '{}', expected counted or measured", found->text()));
+  return true;
+}
+
 int read_sub_models(const Node& node) {
   const auto found = node.find("sub_models");
   if (!found || found->raw() == "auto") return 0;
@@ -59,7 +68,8 @@ void read_run(const Node& root, RunSettings& run) {
   const auto node = root.find("run");
   if (!node) return;
   node->allow({"engine", "engine_profile", "sub_models", "split", "coupling", "coupling_leak", "skin",
-               "recut_ghost_share", "iterations", "overlap_recovery", "scheduler", "threads", "max_speed"});
+               "recut_ghost_share", "iterations", "overlap_recovery", "scheduler", "threads", "balancer",
+               "balance_every", "balance_by", "checkpoint_every", "restart", "max_speed"});
   run.engine = node->text("engine", run.engine);
   run.engine_profile = node->text("engine_profile", run.engine_profile);
   run.sub_models = read_sub_models(*node);
@@ -72,6 +82,11 @@ void read_run(const Node& root, RunSettings& run) {
   run.overlap_recovery = read_fraction(*node, "overlap_recovery", run.overlap_recovery);
   run.scheduler = node->text("scheduler", run.scheduler);
   run.threads = read_int(*node, "threads", run.threads, 0);
+  run.balancer = node->text("balancer", run.balancer);
+  run.balance_every = read_int(*node, "balance_every", run.balance_every, 1);
+  run.balance_measured = read_measured(*node);
+  run.checkpoint_every = read_int(*node, "checkpoint_every", run.checkpoint_every, 0);
+  run.restart = node->text("restart", run.restart);
   run.max_speed = node->not_negative("max_speed", run.max_speed);
 }
 

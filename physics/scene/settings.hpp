@@ -32,8 +32,13 @@ struct RunSettings {
   int iterations = 10;  ///< solver iterations per substep
   double overlap_recovery = 0.1;  ///< share of an overlap that an engine removes per substep; 0 .. 1
   std::string scheduler = "hybrid";
-  int threads = 0;       ///< 0: the cores this process may use
-  double max_speed = 0;  ///< runaway limit [m/s]; 0: from the scene's energy
+  int threads = 0;                  ///< of each rank; 0: its share of the cores it may use
+  std::string balancer = "refine";  ///< which rank owns which sub-model
+  int balance_every = 1;            ///< steps from one balance to the next, at least
+  bool balance_measured = false;    ///< by measured time instead of counted work
+  int checkpoint_every = 0;         ///< steps from one checkpoint to the next, at least; 0: none
+  std::string restart;              ///< folder of a checkpoint, or "latest"; empty: from the start
+  double max_speed = 0;             ///< runaway limit [m/s]; 0: from the scene's energy
 };
 
 struct OutputSettings {

@@ -17,7 +17,7 @@ class Barrier final : public Scheduler {
   }
 
   void ready(Task task, int) override {
-    const std::size_t owner = graph_->sub_model(task.node) * queues_.size() / graph_->sub_models;
+    const std::size_t owner = graph_->place(task.node) * queues_.size() / graph_->sub_models;
     queues_[owner].push(*graph_, task);
   }
 

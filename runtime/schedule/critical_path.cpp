@@ -26,7 +26,7 @@ double level_of(const StepGraph& graph, NodeId node, const std::vector<double>& 
 void add_round_before(const StepGraph& graph, std::vector<double>& level, std::vector<double>& after) {
   after.swap(level);
   for (int stage = static_cast<int>(graph.stages.size()) - 1; stage >= 0; --stage)
-    for (SubModelId s = 0; s < graph.sub_models; ++s)
+    for (std::size_t s = 0; s < graph.sub_models; ++s)
       level[graph.node(s, stage)] = level_of(graph, graph.node(s, stage), level, after);
 }
 

@@ -24,12 +24,16 @@ class Dispatcher {
   /// Appends what starts first.
   void start(std::vector<Assignment>& out);
   /// Appends what starts now that `task` is done; what `worker` goes on with, if anything, comes first.
-  /// Errors: std::logic_error if the policy hands out a task that is not ready, or nothing while no task runs.
+  /// Errors: std::logic_error if the policy hands out a task that is not ready, or nothing while no task runs
+  /// and no message is awaited.
   /// Cost: the task's successors, and one question to the policy per idle worker as long as tasks are ready.
   void finish(Task task, int worker, std::vector<Assignment>& out);
+  /// A message from elsewhere has come for `task`. Appends what starts now.
+  void arrived(Task task, std::vector<Assignment>& out);
   /// From now on nothing starts.
   void stop() { stopped_ = true; }
   bool done() const { return unfinished_ == 0; }
+  bool stopped() const { return stopped_; }
 
  private:
   void count_down(Task task, int released_by);

@@ -6,10 +6,13 @@
 #include <oneapi/tbb/task_group.h>
 
 #include <chrono>
+#include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "runtime/run_error.hpp"
@@ -40,39 +43,40 @@ struct Executor::Threads {
 /// to its successors.
 class Executor::Run {
  public:
-  Run(Executor& owner, const StepGraph& graph, const Epoch& epoch, const Work& work, TaskObserver* observer)
+  Run(Executor& owner, const StepGraph& graph, const Epoch& epoch, const Work& work, TaskObserver* observer,
+      const Poll& poll)
       : graph_(graph),
         epoch_(epoch),
         work_(work),
         observer_(observer),
+        poll_(graph.awaits_messages ? poll : Poll{}),
         dispatcher_(*owner.scheduler_, graph, owner.workers_, epoch.rounds_with_opening()),
         load_(graph, owner.workers_),
-        current_(static_cast<std::size_t>(owner.workers_)) {}
+        in_hand_(static_cast<std::size_t>(owner.workers_)),
+        present_(static_cast<std::size_t>(owner.workers_), false) {}
 
   /// Called inside the arena.
   void all() {
     const Clock::time_point begin = Clock::now();
     start();
+    for (int worker = 1; worker < static_cast<int>(in_hand_.size()); ++worker)
+      group_.run([this, worker] { serve(worker); });
+    serve(0);
     group_.wait();
-    const std::lock_guard lock(mutex_);
     load_.elapsed = seconds(Clock::now() - begin);
   }
 
   LoadRecord result() {
     if (broken_) std::rethrow_exception(broken_);
+    if (elsewhere_ && !failed_) std::rethrow_exception(elsewhere_);
     if (failed_)
-      throw RunError(stage_name(first_failed_), graph_.sub_model(first_failed_.node), round(first_failed_), failed_);
+      throw RunError({0, stage_name(first_failed_), graph_.sub_model(first_failed_.node), round(first_failed_),
+                      what_of(failed_), 0},
+                     failed_);
     return std::move(load_);
   }
 
  private:
-  /// What oneTBB runs: a worker from its task at hand until nothing is left for it.
-  struct Slot {
-    Run* run;
-    int worker;
-    void operator()() const { run->keep_busy(worker); }
-  };
-
   /// A task that was run.
   struct Ended {
     Task task;
@@ -83,30 +87,93 @@ class Executor::Run {
   };
 
   void start() {
-    std::vector<Assignment> starting;
-    {
-      const std::lock_guard lock(mutex_);
-      dispatcher_.start(starting);
-      put_at_hand(starting);
-    }
-    wake(starting, Scheduler::nobody);
-  }
-
-  void keep_busy(int worker) {
-    std::vector<Assignment> starting;  // this call's: the worker may be busy again before it returns
-    std::optional<Task> task = first_task(worker);
-    while (task) {
-      const Ended ended = attempt(*task, worker);
-      starting.clear();
-      settle(ended, starting);
-      task = wake(starting, worker);
-    }
-  }
-
-  // Not inlined, so that the race detector's list of known reports can name it.
-  [[gnu::noinline]] Task first_task(int worker) {
     const std::lock_guard lock(mutex_);
-    return current_[static_cast<std::size_t>(worker)];
+    dispatcher_.start(starting_);
+    hand_out();
+  }
+
+  /// A thread that oneTBB lends does a worker's tasks until all are done. Workers for which no thread has come yet are
+  /// served by the others.
+  void serve(int worker) {
+    std::unique_lock lock(mutex_);
+    present_[static_cast<std::size_t>(worker)] = true;
+    while (!over()) {
+      if (const std::optional<int> next = next_in_hand(worker))
+        run(*next, lock);
+      else if (poll_ && !watched_)
+        watch(worker, lock);
+      else
+        changed_.wait(lock);
+    }
+    changed_.notify_all();
+  }
+
+  bool over() const { return dispatcher_.done() || dispatcher_.stopped(); }
+
+  /// A worker that has a task and that the thread of `own` may serve.
+  std::optional<int> next_in_hand(int own) const {
+    if (in_hand_[static_cast<std::size_t>(own)]) return own;
+    for (std::size_t w = 0; w < in_hand_.size(); ++w)
+      if (in_hand_[w] && !present_[w]) return static_cast<int>(w);
+    return std::nullopt;
+  }
+
+  /// Does the work unlocked.
+  void run(int worker, std::unique_lock<std::mutex>& lock) {
+    const Task task = *std::exchange(in_hand_[static_cast<std::size_t>(worker)], std::nullopt);
+    lock.unlock();
+    const Ended ended = attempt(task, worker);
+    lock.lock();
+    record(ended);
+    dispatch(ended);
+    if (!watched_) receive();
+    hand_out();
+  }
+
+  /// One thread without a task looks for messages, until it gets a task or all is over.
+  void watch(int worker, std::unique_lock<std::mutex>& lock) {
+    watched_ = true;
+    for (int vain = 0;; ++vain) {
+      receive();
+      if (hand_out()) vain = 0;
+      if (over() || next_in_hand(worker)) break;
+      lock.unlock();
+      rest(vain);
+      lock.lock();
+    }
+    watched_ = false;
+    changed_.notify_all();
+  }
+
+  /// More threads than cores must not take turns at looking: after a while without messages the watcher sleeps.
+  static void rest(int vain) {
+    constexpr int before_sleep = 200;
+    if (vain < before_sleep)
+      std::this_thread::yield();
+    else
+      std::this_thread::sleep_for(std::chrono::microseconds(20));
+  }
+
+  /// What messages from elsewhere release.
+  void receive() {
+    if (!poll_) return;
+    arrived_.clear();
+    try {
+      poll_(arrived_);
+    } catch (...) {
+      dispatcher_.stop();
+      if (!elsewhere_) elsewhere_ = std::current_exception();
+    }
+    for (const Task task : arrived_) dispatcher_.arrived(task, starting_);
+  }
+
+  /// Puts what starts in the hands of workers. True if anything starts.
+  bool hand_out() {
+    if (starting_.empty()) return false;
+    for (const Assignment& a : starting_) in_hand_[static_cast<std::size_t>(a.worker)] = a.task;
+    starting_.clear();
+    changed_.notify_all();
+    return true;
   }
 
   Ended attempt(Task task, int worker) const {
@@ -118,30 +185,6 @@ class Executor::Run {
     }
     ended.end = Clock::now();
     return ended;
-  }
-
-  void settle(const Ended& ended, std::vector<Assignment>& starting) {
-    const std::lock_guard lock(mutex_);
-    record(ended);
-    dispatch(ended, starting);
-    put_at_hand(starting);
-  }
-
-  void put_at_hand(const std::vector<Assignment>& starting) {
-    for (const Assignment& a : starting) current_[static_cast<std::size_t>(a.worker)] = a.task;
-  }
-
-  /// Wakes other workers, and returns what `self` goes on with.
-  std::optional<Task> wake(const std::vector<Assignment>& starting, int self) {
-    std::optional<Task> own;
-    for (const Assignment& a : starting) {
-      if (a.worker == self) {
-        own = a.task;
-      } else {
-        group_.run(Slot{this, a.worker});
-      }
-    }
-    return own;
   }
 
   void record(const Ended& e) {
@@ -160,12 +203,12 @@ class Executor::Run {
   }
 
   /// An error of the policy must not leave a oneTBB task.
-  void dispatch(const Ended& ended, std::vector<Assignment>& starting) {
+  void dispatch(const Ended& ended) {
     try {
-      dispatcher_.finish(ended.task, ended.worker, starting);
+      dispatcher_.finish(ended.task, ended.worker, starting_);
     } catch (...) {
       dispatcher_.stop();
-      starting.clear();
+      starting_.clear();
       if (!broken_) broken_ = std::current_exception();
     }
   }
@@ -185,13 +228,20 @@ class Executor::Run {
   const Epoch epoch_;
   const Work& work_;
   TaskObserver* observer_;
+  const Poll poll_;  ///< empty if no messages are awaited
 
   std::mutex mutex_;
   Dispatcher dispatcher_;
   LoadRecord load_;
-  std::vector<Task> current_;  ///< per worker, from being assigned until it starts
-  std::exception_ptr broken_;  ///< the policy's
-  std::exception_ptr failed_;  ///< the first failed task's
+  std::vector<std::optional<Task>> in_hand_;  ///< per worker, from being assigned until it starts
+  std::vector<bool> present_;                 ///< per worker: a thread has come for it
+  std::condition_variable changed_;           ///< a task is in hand, nobody watches, or all is over
+  bool watched_ = false;                      ///< a thread looks for messages
+  std::vector<Assignment> starting_;          ///< buffer
+  std::vector<Task> arrived_;                 ///< buffer
+  std::exception_ptr elsewhere_;              ///< what looking for messages threw
+  std::exception_ptr broken_;                 ///< the policy's
+  std::exception_ptr failed_;                 ///< the first failed task's
   Task first_failed_;
   tbb::task_group group_;
 };
@@ -204,8 +254,9 @@ Executor::Executor(int workers, std::unique_ptr<Scheduler> scheduler)
 
 Executor::~Executor() = default;
 
-LoadRecord Executor::run(const StepGraph& graph, const Epoch& epoch, const Work& work, TaskObserver* observer) {
-  Run run(*this, graph, epoch, work, observer);
+LoadRecord Executor::run(const StepGraph& graph, const Epoch& epoch, const Work& work, TaskObserver* observer,
+                         const Poll& poll) {
+  Run run(*this, graph, epoch, work, observer, poll);
   threads_->arena.execute([&] { run.all(); });
   return run.result();
 }

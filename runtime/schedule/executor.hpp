@@ -17,6 +17,9 @@ class Executor {
  public:
   /// Does the work of a task. Called from several threads; what one task writes its successors see.
   using Work = std::function<void(Task task, int worker)>;
+  /// Looks whether messages have come from elsewhere and appends the tasks they are for. Called by one thread at a
+  /// time, often. What it throws ends the run.
+  using Poll = std::function<void(std::vector<Task>& arrived)>;
 
   /// Errors: std::invalid_argument if workers < 1.
   Executor(int workers, std::unique_ptr<Scheduler> scheduler);
@@ -25,10 +28,12 @@ class Executor {
   int workers() const { return workers_; }
 
   /// Runs every node of the graph in the opening round and `epoch.rounds` more; returns when all are done. Idle
-  /// threads sleep, after oneTBB has looked for work for a moment. Errors: if tasks throw, no more are started; when
+  /// threads sleep. Errors: if tasks throw, no more are started; when
   /// those running have ended, RunError for the first of the failed by (round, stage, sub-model). std::logic_error if
-  /// the policy breaks its contract. Cost: a fraction of a microsecond per task beside its work.
-  LoadRecord run(const StepGraph& graph, const Epoch& epoch, const Work& work, TaskObserver* observer = nullptr);
+  /// the policy breaks its contract. While messages are awaited, threads look for them between tasks, and one idle
+  /// thread all the time. Cost: a fraction of a microsecond per task beside its work.
+  LoadRecord run(const StepGraph& graph, const Epoch& epoch, const Work& work, TaskObserver* observer = nullptr,
+                 const Poll& poll = {});
 
  private:
   class Run;

@@ -15,7 +15,7 @@ std::vector<std::size_t> home_workers(const StepGraph& graph, std::size_t worker
   const double total = std::accumulate(graph.cost.begin(), graph.cost.end(), 0.0);
   std::vector<std::size_t> home(graph.sub_models);
   double before = 0;
-  for (SubModelId s = 0; s < graph.sub_models; ++s) {
+  for (std::size_t s = 0; s < graph.sub_models; ++s) {
     const auto first = graph.cost.begin() + graph.node(s, 0);
     const double own = std::accumulate(first, first + static_cast<std::ptrdiff_t>(graph.stages.size()), 0.0);
     const auto worker = static_cast<std::size_t>((before + own / 2) / total * static_cast<double>(workers));
@@ -33,7 +33,7 @@ class Hybrid final : public Scheduler {
     home_ = home_workers(graph, queues_.size());
   }
 
-  void ready(Task task, int) override { queues_[home_[graph_->sub_model(task.node)]].push(*graph_, task); }
+  void ready(Task task, int) override { queues_[home_[graph_->place(task.node)]].push(*graph_, task); }
 
   std::optional<Task> next(int worker) override {
     OldestFirst& own = queues_[static_cast<std::size_t>(worker)];

@@ -19,7 +19,7 @@ class Stealing final : public Scheduler {
   }
 
   void ready(Task task, int released_by) override {
-    const std::size_t worker = released_by == nobody ? graph_->sub_model(task.node) * tasks_.size() / graph_->sub_models
+    const std::size_t worker = released_by == nobody ? graph_->place(task.node) * tasks_.size() / graph_->sub_models
                                                      : static_cast<std::size_t>(released_by);
     tasks_[worker].push_back(task);
   }

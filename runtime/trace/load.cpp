@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "runtime/records.hpp"
+
 namespace moraine::runtime {
 namespace {
 
@@ -17,12 +19,15 @@ void merge_lists(std::vector<Busy>& into, const std::vector<Busy>& from) {
 }  // namespace
 
 LoadRecord::LoadRecord(const StepGraph& graph, int worker_count)
-    : workers(static_cast<std::size_t>(worker_count)), stages(graph.stages.size()), nodes(graph.node_count()) {}
+    : workers(static_cast<std::size_t>(worker_count)),
+      stages(graph.stages.size()),
+      nodes(graph.ids.empty() ? 0 : (graph.ids.back() + 1) * graph.stages.size()) {}
 
 void LoadRecord::add(const StepGraph& graph, Task task, int worker, double seconds) {
   workers[static_cast<std::size_t>(worker)].add(seconds);
   stages[static_cast<std::size_t>(graph.stage(task.node))].add(seconds);
-  nodes[task.node].add(seconds);
+  nodes[graph.sub_model(task.node) * graph.stages.size() + static_cast<std::size_t>(graph.stage(task.node))].add(
+      seconds);
 }
 
 void LoadRecord::merge(const LoadRecord& other) {
@@ -57,10 +62,37 @@ double LoadRecord::imbalance() const {
   return most > 0 ? most * static_cast<double>(workers.size()) / busy() : 1.0;
 }
 
-std::vector<double> LoadRecord::mean_cost() const {
+double LoadRecord::seconds_of(SubModelId id) const {
+  double sum = 0;
+  for (std::size_t stage = 0; stage < stages.size(); ++stage)
+    if (const std::size_t at = id * stages.size() + stage; at < nodes.size()) sum += nodes[at].seconds;
+  return sum;
+}
+
+std::vector<double> LoadRecord::mean_cost(const StepGraph& graph) const {
   std::vector<double> cost;
-  for (const Busy& node : nodes) cost.push_back(node.tasks > 0 ? node.seconds / static_cast<double>(node.tasks) : 0.0);
+  for (NodeId node = 0; node < graph.node_count(); ++node) {
+    const std::size_t at = graph.sub_model(node) * stages.size() + static_cast<std::size_t>(graph.stage(node));
+    const Busy busy = at < nodes.size() ? nodes[at] : Busy{};
+    cost.push_back(busy.tasks > 0 ? busy.seconds / static_cast<double>(busy.tasks) : 0.0);
+  }
   return cost;
+}
+
+LoadRecord all_ranks(const LoadRecord& own, Transport& transport) {
+  Bytes told;
+  write_records(told, std::vector{own.elapsed});
+  for (const auto* list : {&own.workers, &own.stages, &own.nodes}) write_records(told, *list);
+  LoadRecord all;
+  for (const Bytes& bytes : all_gather(transport, told)) {
+    std::span<const std::byte> in(bytes);
+    all.elapsed = std::max(all.elapsed, read_records<double>(in).at(0));
+    const auto workers = read_records<Busy>(in);
+    all.workers.insert(all.workers.end(), workers.begin(), workers.end());
+    merge_lists(all.stages, read_records<Busy>(in));
+    merge_lists(all.nodes, read_records<Busy>(in));
+  }
+  return all;
 }
 
 }  // namespace moraine::runtime

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/step_graph.hpp"
+#include "runtime/transport/transport.hpp"
 
 namespace moraine::runtime {
 
@@ -24,7 +25,7 @@ struct LoadRecord {
   double elapsed = 0;  ///< seconds
   std::vector<Busy> workers;
   std::vector<Busy> stages;
-  std::vector<Busy> nodes;  ///< as in the step graph
+  std::vector<Busy> nodes;  ///< by sub-model number * stages + stage, of those that ran here
 
   LoadRecord() = default;
   LoadRecord(const StepGraph& graph, int workers);
@@ -37,8 +38,14 @@ struct LoadRecord {
   double utilisation() const;       ///< busy / (workers * elapsed); 1 if nothing ran
   double waiting_fraction() const;  ///< 1 - utilisation
   double imbalance() const;         ///< busiest worker / mean worker; 1 if nothing ran
-  /// Mean seconds of each node's tasks, to predict the next epoch's cost with.
-  std::vector<double> mean_cost() const;
+  /// Of a sub-model's tasks here.
+  double seconds_of(SubModelId id) const;
+  /// Mean seconds of the tasks of each of the graph's nodes; 0 for those that did not run here.
+  std::vector<double> mean_cost(const StepGraph& graph) const;
 };
+
+/// Of all ranks: their workers one after another, the sum of their stages and nodes, the longest elapsed time.
+/// Collective.
+LoadRecord all_ranks(const LoadRecord& own, Transport& transport);
 
 }  // namespace moraine::runtime

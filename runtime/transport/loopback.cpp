@@ -1,139 +1,115 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/transport/loopback.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <numeric>
-#include <stdexcept>
-
-#include "runtime/message_plan.hpp"
+#include <condition_variable>
+#include <cstdlib>
+#include <deque>
+#include <mutex>
+#include <random>
 
 namespace moraine::runtime {
+namespace {
 
-/// The letter box of the one task of a sub-model that is open.
-class LoopbackTransport::Box final : public Port {
+/// What has been sent to a rank, by sender. Shuffling asks a random sender first, and sometimes none.
+class Inbox {
  public:
-  Box(LoopbackTransport& owner, SubModelId id) : owner_(owner), id_(id) {}
+  Inbox(const LoopbackOptions& options, int rank)
+      : queues_(static_cast<std::size_t>(options.ranks)),
+        shuffled_(options.shuffled),
+        random_(options.seed * 1'000'003 + static_cast<std::uint64_t>(rank)) {}
 
-  void open(int stage, std::int64_t round) {
-    stage_ = stage;
-    round_ = round;
-    for (std::size_t i = first(owner_.first_out_); i < last(owner_.first_out_); ++i) clear(owner_.links_[i], i);
+  void put(Parcel parcel) {
+    const std::lock_guard lock(mutex_);
+    queues_[static_cast<std::size_t>(parcel.from)].push_back(std::move(parcel));
   }
 
-  void close() {
-    if (owner_.poison_ && !nothing_before())
-      for (std::size_t i = first(owner_.first_in_); i < last(owner_.first_in_); ++i) destroy(slot_in(i));
-  }
-
-  std::span<const std::byte> received(SubModelId from) const override {
-    const std::size_t i = find(owner_.from_, owner_.first_in_, from, "source");
-    if (nothing_before()) return {};
-    const Slot& slot = slot_in(i);
-    const MessageHeader expected{receives(), from, id_, sent_round()};
-    if (slot.header != expected) refuse(slot.header, expected);
-    return slot.bytes;
-  }
-
-  void send(SubModelId to, std::span<const std::byte> bytes) override {
-    Slot& slot = owner_.links_[find(owner_.to_, owner_.first_out_, to, "target")][parity(round_)];
-    if (slot.sent) throw std::logic_error(fmt::format("sub-model {} sends twice to {} in stage {}", id_, to, stage_));
-    slot.sent = true;
-    slot.bytes.assign(bytes.begin(), bytes.end());
+  std::optional<Parcel> take() {
+    const std::lock_guard lock(mutex_);
+    if (shuffled_ && random_() % 3 == 0) return std::nullopt;
+    const std::size_t first = shuffled_ ? random_() % queues_.size() : 0;
+    for (std::size_t i = 0; i < queues_.size(); ++i)
+      if (auto& queue = queues_[(first + i) % queues_.size()]; !queue.empty()) {
+        Parcel parcel = std::move(queue.front());
+        queue.pop_front();
+        return parcel;
+      }
+    return std::nullopt;
   }
 
  private:
-  static std::size_t parity(std::int64_t round) { return static_cast<std::size_t>(round & 1); }
-  std::size_t first(const std::vector<std::size_t>& offsets) const { return offsets[owner_.node(id_, stage_)]; }
-  std::size_t last(const std::vector<std::size_t>& offsets) const { return offsets[owner_.node(id_, stage_) + 1]; }
-  int receives() const { return owner_.receives_[static_cast<std::size_t>(stage_)]; }
-  std::int64_t sent_round() const { return receives() < stage_ ? round_ : round_ - 1; }
-  bool nothing_before() const { return sent_round() < 0; }
-  Slot& slot_in(std::size_t i) const { return owner_.links_[owner_.in_[i]][parity(sent_round())]; }
-
-  void clear(Link& link, std::size_t i) const {
-    Slot& slot = link[parity(round_)];
-    slot.header = {stage_, id_, owner_.to_[i], round_};
-    slot.sent = false;
-    slot.bytes.clear();
-  }
-
-  static void destroy(Slot& slot) {
-    slot.header = {};
-    std::fill(slot.bytes.begin(), slot.bytes.end(), std::byte{0xDB});
-  }
-
-  std::size_t find(const std::vector<SubModelId>& ids, const std::vector<std::size_t>& offsets, SubModelId id,
-                   const char* what) const {
-    const auto begin = ids.begin() + static_cast<std::ptrdiff_t>(first(offsets));
-    const auto end = ids.begin() + static_cast<std::ptrdiff_t>(last(offsets));
-    const auto at = std::lower_bound(begin, end, id);
-    if (at == end || *at != id)
-      throw std::logic_error(fmt::format("sub-model {} is not a {} of {} in stage {}", id, what, id_, stage_));
-    return static_cast<std::size_t>(at - ids.begin());
-  }
-
-  [[noreturn]] static void refuse(const MessageHeader& got, const MessageHeader& expected) {
-    const auto text = [](const MessageHeader& h) {
-      return fmt::format("stage {} {} -> {} round {}", h.stage, h.from, h.to, h.round);
-    };
-    throw std::logic_error(fmt::format("expected the message of {}, found {}", text(expected), text(got)));
-  }
-
-  LoopbackTransport& owner_;
-  SubModelId id_;
-  int stage_ = 0;
-  std::int64_t round_ = 0;
+  std::mutex mutex_;
+  std::vector<std::deque<Parcel>> queues_;
+  bool shuffled_;
+  std::mt19937_64 random_;
 };
 
-LoopbackTransport::LoopbackTransport(bool poison) : poison_(poison) {}
-LoopbackTransport::~LoopbackTransport() = default;
-
-std::size_t LoopbackTransport::node(SubModelId sub_model, int stage) const {
-  return sub_model * stages_ + static_cast<std::size_t>(stage);
-}
-
-void LoopbackTransport::lay_out(Model& model) {
-  const std::vector<Message> plan = plan_messages(model);
-  const std::size_t nodes = model.size() * stages_;
-  links_.resize(plan.size());
-  to_.resize(plan.size());
-  from_.resize(plan.size());
-  in_.resize(plan.size());
-  first_out_.assign(nodes + 1, 0);
-  first_in_.assign(nodes + 1, 0);
-  for (const Message& m : plan) {
-    ++first_out_[node(m.from, m.sent_in) + 1];
-    ++first_in_[node(m.to, m.read_in) + 1];
+/// What all ranks share.
+class Hub {
+ public:
+  explicit Hub(const LoopbackOptions& options) : offered_(static_cast<std::size_t>(options.ranks)) {
+    for (int rank = 0; rank < options.ranks; ++rank) inboxes_.push_back(std::make_unique<Inbox>(options, rank));
   }
-  std::partial_sum(first_out_.begin(), first_out_.end(), first_out_.begin());
-  std::partial_sum(first_in_.begin(), first_in_.end(), first_in_.begin());
-  // The plan ascends by sender, so a receiver's list does too.
-  std::vector<std::size_t> free(first_in_.begin(), first_in_.end());
-  for (std::size_t i = 0; i < plan.size(); ++i) {
-    const std::size_t at = free[node(plan[i].to, plan[i].read_in)]++;
-    in_[at] = i;
-    from_[at] = plan[i].from;
-    to_[i] = plan[i].to;
-    links_[i][0].header = links_[i][1].header = {};
+
+  int ranks() const { return static_cast<int>(inboxes_.size()); }
+  Inbox& inbox(int rank) { return *inboxes_[static_cast<std::size_t>(rank)]; }
+
+  std::vector<Bytes> exchange(int rank, std::vector<Bytes> to) {
+    if (ranks() == 1) return to;
+    const auto self = static_cast<std::size_t>(rank);
+    offered_[self] = std::move(to);
+    meet();
+    std::vector<Bytes> from;
+    for (auto& offer : offered_) from.push_back(std::move(offer[self]));
+    meet();
+    return from;
   }
-}
 
-void LoopbackTransport::begin_epoch(Model& model) {
-  stages_ = model.stages().size();
-  receives_.clear();
-  for (const Stage& stage : model.stages()) receives_.push_back(stage.receives);
-  lay_out(model);
-  box_.resize(std::min(box_.size(), model.size()));
-  while (box_.size() < model.size()) box_.push_back(std::make_unique<Box>(*this, static_cast<SubModelId>(box_.size())));
-}
+ private:
+  /// Nobody goes on before all have come.
+  void meet() {
+    std::unique_lock lock(mutex_);
+    const std::uint64_t meeting = meeting_;
+    if (++present_ == inboxes_.size()) {
+      present_ = 0;
+      ++meeting_;
+      all_here_.notify_all();
+    } else {
+      all_here_.wait(lock, [&] { return meeting_ != meeting; });
+    }
+  }
 
-Port& LoopbackTransport::open(SubModelId sub_model, int stage, std::int64_t round) {
-  box_[sub_model]->open(stage, round);
-  return *box_[sub_model];
-}
+  std::vector<std::unique_ptr<Inbox>> inboxes_;
+  std::vector<std::vector<Bytes>> offered_;  ///< by rank that gives, then by rank that gets
+  std::mutex mutex_;
+  std::condition_variable all_here_;
+  std::size_t present_ = 0;
+  std::uint64_t meeting_ = 0;
+};
 
-void LoopbackTransport::close(SubModelId sub_model) { box_[sub_model]->close(); }
+class Loopback final : public Transport {
+ public:
+  Loopback(std::shared_ptr<Hub> hub, int rank) : hub_(std::move(hub)), rank_(rank) {}
+
+  int rank() const override { return rank_; }
+  int ranks() const override { return hub_->ranks(); }
+  void send(int to, Bytes bytes) override { hub_->inbox(to).put({rank_, std::move(bytes)}); }
+  std::optional<Parcel> receive() override { return hub_->inbox(rank_).take(); }
+  std::vector<Bytes> exchange(std::vector<Bytes> to) override { return hub_->exchange(rank_, std::move(to)); }
+  [[noreturn]] void abort(int status) override { std::_Exit(status); }
+  int ranks_on_these_cores() override { return hub_->ranks(); }
+
+ private:
+  std::shared_ptr<Hub> hub_;
+  int rank_;
+};
+
+}  // namespace
+
+std::vector<std::unique_ptr<Transport>> make_loopback(const LoopbackOptions& options) {
+  const auto hub = std::make_shared<Hub>(options);
+  std::vector<std::unique_ptr<Transport>> ranks;
+  for (int rank = 0; rank < options.ranks; ++rank) ranks.push_back(std::make_unique<Loopback>(hub, rank));
+  return ranks;
+}
 
 }  // namespace moraine::runtime

@@ -1,34 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contract of a transport: how messages get from one sub-model's task to another's.
+// The contract of a transport: how ranks reach each other.
 #pragma once
 
-#include "runtime/step_graph.hpp"
-#include "runtime/sub_model.hpp"
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace moraine::runtime {
 
-/// Every message carries this, and its receiver checks it.
-struct MessageHeader {
-  int stage = Stage::none;
-  SubModelId from = 0;
-  SubModelId to = 0;
-  std::int64_t round = -1;  ///< in its epoch
-  bool operator==(const MessageHeader&) const = default;
+using Bytes = std::vector<std::byte>;
+
+struct Parcel {
+  int from = 0;  ///< rank
+  Bytes bytes;
 };
 
-/// Tasks of different sub-models may be open at once, from any thread; those of one sub-model may not. The caller
-/// orders tasks as the step graph says; a transport needs no locks of its own between them.
+/// Parcels between two ranks arrive whole and in order; those of different ranks in any order.
 class Transport {
  public:
   virtual ~Transport() = default;
-  /// Makes room for the messages of the model's present neighbours. What an earlier epoch left unread is dropped.
-  /// Errors: std::logic_error as plan_messages().
-  virtual void begin_epoch(Model& model) = 0;
-  /// The letter box of (sub_model, stage) in a round of the epoch, valid until closed. A target that is sent nothing
-  /// receives an empty message; so does every receiver of a message of the round before the opening one.
-  virtual Port& open(SubModelId sub_model, int stage, std::int64_t round) = 0;
-  /// The task is done: its messages may travel, and what it received may be overwritten.
-  virtual void close(SubModelId sub_model) = 0;
+  virtual int rank() const = 0;
+  virtual int ranks() const = 0;
+  /// Does not wait for the receiver. From any thread.
+  virtual void send(int to, Bytes bytes) = 0;
+  /// A parcel that has arrived, if there is one. From any thread.
+  virtual std::optional<Parcel> receive() = 0;
+  /// Called by all ranks, while none sends or receives: `to` has one entry per rank, and so has what comes back. An
+  /// entry may be empty.
+  virtual std::vector<Bytes> exchange(std::vector<Bytes> to) = 0;
+  /// Ends the processes of all ranks, this one too, with this exit status.
+  [[noreturn]] virtual void abort(int status) = 0;
+  /// Ranks on this machine that share cores with this one, itself included.
+  virtual int ranks_on_these_cores() = 0;
 };
+
+/// The one rank of a run without others.
+Transport& alone();
+
+/// What every rank gives, by rank, on every rank. Called by all.
+std::vector<Bytes> all_gather(Transport& transport, const Bytes& own);
+/// The same, on rank `root` alone; nothing elsewhere.
+std::vector<Bytes> gather(Transport& transport, int root, Bytes own);
 
 }  // namespace moraine::runtime

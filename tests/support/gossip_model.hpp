@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/records.hpp"
 #include "runtime/sub_model.hpp"
 
 namespace moraine::runtime::test {
@@ -37,8 +38,15 @@ class Gossip final : public SubModel {
   std::span<const SubModelId> sources(int stage) const override { return sources_of[index(stage)]; }
   std::span<const SubModelId> targets(int stage) const override { return targets_of[index(stage)]; }
   double counted_work(int stage) const override { return cost ? cost(stage) : 1.0; }
-  void save(std::vector<std::byte>&) const override {}
-  void load(std::span<const std::byte>) override {}
+  void save(std::vector<std::byte>& out) const override {
+    write_records(out, std::vector{memory});
+    write_records(out, std::vector{last_});
+  }
+  void load(std::span<const std::byte> in) override {
+    memory = read_records<std::uint64_t>(in).at(0);
+    last_ = read_records<Round>(in).at(0);
+    last_stage_ = static_cast<int>(stages_.size()) - 1;
+  }
 
   void run(int stage, const Round& round, Port& port) override {
     if (running_.exchange(true)) throw std::logic_error("two tasks of one sub-model at once");
@@ -112,7 +120,7 @@ class GossipModel : public Model {
   std::span<const Stage> stages() const override { return stages_; }
   std::size_t size() const override { return members_.size(); }
   Gossip& sub_model(SubModelId id) override { return *members_[id]; }
-  std::int64_t begin_epoch(std::int64_t, std::int64_t at_most) override { return at_most; }
+  EpochPlan begin_epoch(std::int64_t, std::int64_t at_most) override { return {at_most}; }
 
   /// What `from` says in the stage that `read_in` receives from now goes to `to`. Call in ascending order.
   void link(SubModelId from, SubModelId to, int read_in) {
@@ -154,7 +162,7 @@ class RandomGossip final : public GossipModel {
  public:
   RandomGossip(unsigned seed, std::size_t size) : RandomGossip(std::mt19937(seed), seed, size) {}
 
-  std::int64_t begin_epoch(std::int64_t next_round, std::int64_t at_most) override {
+  EpochPlan begin_epoch(std::int64_t next_round, std::int64_t at_most) override {
     std::mt19937 random(seed_ * 7919U + static_cast<unsigned>(next_round));
     for (SubModelId id = 0; id < size(); ++id) sub_model(id).forget_links();
     for (int t = 0; t < static_cast<int>(stages().size()); ++t) {
@@ -163,7 +171,7 @@ class RandomGossip final : public GossipModel {
         for (SubModelId to = 0; to < size(); ++to)
           if (random() % size() < 2) link(from, to, t);
     }
-    return std::min<std::int64_t>(at_most, 1 + random() % 9);
+    return {std::min<std::int64_t>(at_most, 1 + random() % 9)};
   }
 
  private:

@@ -125,7 +125,7 @@ run: {split: slabs}
   EXPECT_EQ(whole.model().statistics().bonds_broken, 1U);
   EXPECT_EQ(cut.model().statistics().bonds_broken, 1U);
   EXPECT_TRUE(cut.model().alive_bonds().empty());
-  EXPECT_EQ(cut.model().ghosts_now(), 0U) << "nothing near, nothing bonded: no ghost";
+  EXPECT_EQ(cut.model().statistics().ghosts_now, 0U) << "nothing near, nothing bonded: no ghost";
   EXPECT_NEAR(cut.velocity(1).x(), whole.velocity(1).x(), 0.02);
   EXPECT_NEAR(cut.velocity(1).x() + cut.velocity(2).x(), 3, 1e-6);
 }

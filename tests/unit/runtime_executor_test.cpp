@@ -92,10 +92,10 @@ TEST(Executor, SaysWhichTaskFailedAndWhy) {
       Simulation(model, options(row.name, 3)).run(10, 20);
       FAIL() << row.name;
     } catch (const RunError& error) {
-      EXPECT_STREQ(error.what(), "move of sub-model 2 in round 17: 999 K");
-      EXPECT_EQ(error.stage(), "move");
-      EXPECT_EQ(error.sub_model(), 2U);
-      EXPECT_EQ(error.round().number, 17);
+      EXPECT_STREQ(error.what(), "rank 0, move of sub-model 2 in round 17: 999 K");
+      EXPECT_EQ(error.failure().stage, "move");
+      EXPECT_EQ(error.failure().sub_model, 2U);
+      EXPECT_EQ(error.failure().round.number, 17);
       EXPECT_THROW(std::rethrow_exception(error.cause()), TooHot);
     }
   }
@@ -108,7 +108,7 @@ TEST(Executor, FailureInTheOpeningRoundSaysSo) {
     Simulation(model, options("hybrid", 1)).run(8, 1);
     FAIL();
   } catch (const RunError& error) {
-    EXPECT_STREQ(error.what(), "warm of sub-model 0 in the exchange before round 8: unknown error");
+    EXPECT_STREQ(error.what(), "rank 0, warm of sub-model 0 in the exchange before round 8: unknown error");
     EXPECT_THROW(std::rethrow_exception(error.cause()), int);
   }
 }
@@ -124,7 +124,7 @@ TEST(Executor, OfSeveralFailuresTheFirstInOrderCounts) {
     Simulation(model, options("hybrid", 2)).run(0, 1);
     FAIL();
   } catch (const RunError& error) {
-    EXPECT_EQ(error.sub_model(), 0U);
+    EXPECT_EQ(error.failure().sub_model, 0U);
   }
 }
 
@@ -246,7 +246,7 @@ TEST(Executor, MeasuresLoad) {
   EXPECT_GE(load.elapsed, load.busy());
   EXPECT_GT(load.utilisation(), 0.5);
   EXPECT_EQ(load.imbalance(), 1.0);
-  EXPECT_GE(load.mean_cost()[3], 0.002);
+  EXPECT_GE(load.mean_cost(build_step_graph(model))[3], 0.002);
 }
 
 TEST(LoadRecord, ComparesWorkers) {
@@ -262,7 +262,7 @@ TEST(LoadRecord, ComparesWorkers) {
   EXPECT_DOUBLE_EQ(load.utilisation(), 0.3);
   EXPECT_DOUBLE_EQ(load.waiting_fraction(), 0.7);
   EXPECT_DOUBLE_EQ(load.imbalance(), 1.5);
-  EXPECT_EQ(load.mean_cost(), std::vector<double>{6});
+  EXPECT_EQ(load.mean_cost(graph), std::vector<double>{6});
 }
 
 }  // namespace

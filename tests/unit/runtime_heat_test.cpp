@@ -109,7 +109,7 @@ class Rod final : public Model {
   std::span<const Stage> stages() const override { return stages_; }
   std::size_t size() const override { return pieces_.size(); }
   SubModel& sub_model(SubModelId id) override { return *pieces_[id]; }
-  std::int64_t begin_epoch(std::int64_t, std::int64_t at_most) override { return std::min(epoch_, at_most); }
+  EpochPlan begin_epoch(std::int64_t, std::int64_t at_most) override { return {std::min(epoch_, at_most)}; }
 
   std::vector<double> temperatures() const {
     std::vector<double> t;

@@ -39,7 +39,7 @@ TEST(Projectile, FliesTheSameBesideAnother) {
                        "friction: 0", in_two)));
   alone.steps(1000);
   beside.steps(1000);
-  EXPECT_EQ(beside.model().ghosts_now(), 1U);
+  EXPECT_EQ(beside.model().statistics().ghosts_now, 1U);
   EXPECT_LT((beside.position(1) - alone.position(1)).norm(), 2e-5);
   EXPECT_LT((beside.velocity(1) - alone.velocity(1)).norm(), 2e-5);
 }

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run has added up to so far, over all sub-models and all cuts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "ghosting/report.hpp"
+
+namespace moraine {
+
+/// Counts and residuals of a run so far.
+struct ModelStatistics {
+  double ghosts_mean = 0;
+  std::size_t ghosts_max = 0;
+  std::size_t ghosts_now = 0;
+  std::size_t bonds_broken = 0;
+  std::size_t recuts = 0;
+  double linear_residual = 0;    ///< unexplained momentum / larger of the largest sum of m|v| and the impulse exchanged
+  double angular_residual = 0;   ///< the same for angular momentum about the world origin
+  double coupling_residual = 0;  ///< rms speed by which copies disagreed / sqrt(g d)
+  Ledger ledger;
+};
+
+/// Of all sub-models, now.
+std::uint64_t ghosts(const std::vector<Report>& reports);
+
+/// Kept alike on all ranks, from the reports of all sub-models.
+struct Accounts {
+  Ledger opening;  ///< at the start of the run
+  Ledger closed;   ///< given and exchanged by sub-models of earlier cuts
+  std::size_t recuts = 0;
+  double disagreement = 0;  ///< as in Report, of earlier cuts; so are the next three
+  std::uint64_t disagreements = 0, ghost_rounds = 0, rounds = 0;
+  std::vector<std::uint32_t> broken_bonds;  ///< ascending
+  std::uint64_t ghosts_max = 0;
+  double speed_sum_max = 0, spin_scale_max = 0;
+
+  /// Between epochs: extremes that would be missed at the end.
+  void note_extremes(const std::vector<Report>& reports);
+  /// Sub-models about to be replaced leave what they counted.
+  void take_over(const std::vector<Report>& reports);
+  /// `speed`: sqrt(g d) [m/s].
+  ModelStatistics statistics(const std::vector<Report>& reports, double speed) const;
+};
+
+}  // namespace moraine

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Saving and reloading every sub-model in place, whenever that is allowed, must not change a bit.
+#include <gtest/gtest.h>
+
+#include "tests/support/model_run.hpp"
+
+namespace moraine {
+namespace {
+
+using test::example;
+using test::set;
+
+/// A model that puts each of its sub-models through its saved form.
+class Reloading final : public CoupledModel {
+ public:
+  using CoupledModel::CoupledModel;
+
+  runtime::EpochPlan begin_epoch(std::int64_t next_round, std::int64_t at_most) override {
+    const runtime::EpochPlan plan = CoupledModel::begin_epoch(next_round, at_most);
+    for (SubModelId id = 0; plan.fresh && id < size(); ++id) reload(id);
+    return plan;
+  }
+  int reloads = 0;
+
+ private:
+  void reload(SubModelId id) {
+    std::vector<std::byte> saved, again;
+    sub_model(id).save(saved);
+    release(id);
+    adopt(id, saved);
+    sub_model(id).save(again);
+    EXPECT_EQ(saved, again) << "sub-model " << id;
+    ++reloads;
+  }
+};
+
+template <class Model>
+std::uint64_t hash_after(const Scene& scene, Model& model) {
+  runtime::Simulation(model, {.threads = 1, .scheduler = "serial"}).run(0, scene.time.steps * scene.time.substeps);
+  return state_hash(scene, model.states());
+}
+
+struct Case {
+  const char* scene;
+  std::vector<Override> settings;
+};
+
+class Reload : public testing::TestWithParam<Case> {};
+
+TEST_P(Reload, ChangesNothing) {
+  const Scene scene = example(GetParam().scene, GetParam().settings);
+  CoupledModel plain(scene);
+  Reloading reloaded(scene);
+  EXPECT_EQ(hash_after(scene, reloaded), hash_after(scene, plain));
+  EXPECT_GT(reloaded.reloads, 2 * static_cast<int>(scene.run.sub_models));
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Reload,
+                         testing::Values(Case{"crust_small",
+                                              {set("count", 800), set("radius", "3000"), set("dt", 1),
+                                               set("steps", 100), set("run.sub_models", 4)}},
+                                         Case{"dam",
+                                              {set("count", 600), set("time.duration", 2), set("run.sub_models", 5)}},
+                                         Case{"mixed_shapes", {set("time.duration", 1.5), set("run.sub_models", 4)}},
+                                         Case{"bonded_beam", {set("time.duration", 0.5), set("run.sub_models", 3)}},
+                                         Case{"column", {set("time.duration", 1), set("run.sub_models", 5)}}),
+                         [](const auto& test) { return test.param.scene; });
+
+}  // namespace
+}  // namespace moraine
