@@ -24,8 +24,10 @@ struct Rest {
   double residual = 0;     ///< momentum that nothing explains, as a part of what was given
 };
 
-Rest settle(const std::string& scene, int parts, double seconds) {
-  ModelRun run(example(scene, {set("run.sub_models", parts)}));
+Rest settle(const std::string& scene, int parts, double seconds, const std::vector<Override>& more = {}) {
+  std::vector<Override> overrides = more;
+  overrides.push_back(set("run.sub_models", parts));
+  ModelRun run(example(scene, overrides));
   const double dt = run.scene().time.dt;
   const auto steps = [&](double t) { return std::lround(t / dt); };
   run.steps(steps(seconds - 6));
@@ -43,7 +45,7 @@ Rest settle(const std::string& scene, int parts, double seconds) {
   rest.height = s.ledger.mass_moment.z() / s.ledger.mass;
   rest.residual = (s.ledger.momentum.linear - s.ledger.given.linear).norm() / s.ledger.exchanged;
   for (const auto& [name, value] : std::map<std::string, double>{{"energy", rest.energy}, {"overlap", rest.overlap}})
-    testing::Test::RecordProperty(fmt::format("{}_in_{}", name, parts), fmt::format("{:.3e}", value));
+    testing::Test::RecordProperty(fmt::format("{}_in_{}_{}", name, parts, more.empty() ? "" : more.front().value), fmt::format("{:.3e}", value));
   return rest;
 }
 
@@ -60,11 +62,22 @@ void expect_alike(const Rest& cut, const Rest& whole) {
   EXPECT_LT(cut.overlap, 2 * whole.overlap);
 }
 
-/// Which of many packings a pile settles into differs from cut to cut, so heights agree to 2 % only.
+/// Into which of many packings a pile settles, and how many of its spheres stay loose, is chance: means over seeds of
+/// the starting positions are compared.
+Rest mean_over_seeds(const std::string& scene, int parts, double seconds) {
+  Rest mean;
+  for (const double seed : {1, 2, 3}) {
+    const Rest r = settle(scene, parts, seconds, {set("seed", seed)});
+    expect_sound(r, 1e-3);
+    mean.energy += r.energy / 3;
+    mean.overlap += r.overlap / 3;
+    mean.height += r.height / 3;
+  }
+  return mean;
+}
+
 TEST(AtRest, BoxSettlesAlikeWholeAndCut) {
-  const Rest whole = settle("box_settle", 1, 20), cut = settle("box_settle", 4, 20);
-  expect_sound(whole, 1e-3);
-  expect_sound(cut, 1e-3);
+  const Rest whole = mean_over_seeds("box_settle", 1, 14), cut = mean_over_seeds("box_settle", 4, 14);
   expect_alike(cut, whole);
   EXPECT_NEAR(cut.height, whole.height, 0.02 * whole.height);
 }
