@@ -11,7 +11,8 @@ namespace moraine::app {
 
 /// Called on all ranks.
 int run(const Scene& scene, runtime::Transport& transport);
-int info(const Scene& scene);
+/// `ranks`: that would share the scene.
+int info(const Scene& scene, int ranks);
 int list();
 int render(const std::filesystem::path& folder, int width);
 

@@ -52,9 +52,26 @@ std::string time_limit_text(const Scene& scene) {
   return fmt::format("{:.4g} s per substep, set by {}", limit.substep, limit.reason);
 }
 
+/// A sub-model belongs to one rank, so the rank with most of them bounds what all can use: equal sub-models, any
+/// scheduler but barrier.
+double whole_ownership(std::size_t parts, int ranks, int threads) {
+  const double most = std::ceil(static_cast<double>(parts) / ranks);
+  return static_cast<double>(parts) / (ranks * std::max(most, static_cast<double>(threads)));
+}
+
+std::string ownership_text(std::size_t parts, int ranks, int threads) {
+  const double bound = whole_ownership(parts, ranks, threads);
+  std::string text = fmt::format("{} rank(s) x {} thread(s): ownership allows {:.1f} %", ranks, threads, 100 * bound);
+  if (bound >= 0.95) return text;
+  std::size_t better = parts;
+  while (whole_ownership(better, ranks, threads) < 0.95) ++better;
+  return text +
+         fmt::format("; {} sub-models would allow {:.1f} %", better, 100 * whole_ownership(better, ranks, threads));
+}
+
 }  // namespace
 
-int info(const Scene& scene) {
+int info(const Scene& scene, int ranks) {
   const CoupledModel model(scene);
   std::size_t smallest = SIZE_MAX, largest = 0;
   for (std::size_t i = 0; i < model.size(); ++i) {
@@ -79,6 +96,7 @@ int info(const Scene& scene) {
                            scene.time.substeps, scene.run.iterations));
   line("time limit", time_limit_text(scene));
   line("scheduling", fmt::format("{}; {}", scene.run.scheduler, barrier_text(model.size(), threads)));
+  line("", ownership_text(model.size(), ranks, threads));
   line("memory", fmt::format("about {:.0f} MB for the worlds", 8e-3 * double(scene.elements.size())));
   for (const std::string& warning : scene.warnings) line("warning", warning);
   return 0;

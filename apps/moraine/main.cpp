@@ -94,6 +94,8 @@ int main(int argc, char** argv) {
   run_command->add_flag("--quiet", quiet, "no progress, only the closing summary's warnings")->envname("MORAINE_QUIET");
   CLI::App* info = app.add_subcommand("info", "what would run, without running it");
   info_options.add_to(*info);
+  int ranks = 1;
+  info->add_option("--ranks", ranks, "ranks that would share the scene")->check(CLI::PositiveNumber);
   CLI::App* list = app.add_subcommand("list", "engines, splits, couplings, schedulers, output formats");
   std::string folder;
   int width = 1200;
@@ -113,7 +115,7 @@ int main(int argc, char** argv) {
       return scene;
     });
   return guarded([&] {
-    if (*info) return moraine::app::info(info_options.read());
+    if (*info) return moraine::app::info(info_options.read(), ranks);
     if (*list) return moraine::app::list();
     return moraine::app::render(folder, width);
   });

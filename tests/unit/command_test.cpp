@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command itself: exit status, texts, options, what it leaves behind.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/shell.hpp"
 #include "tests/unit/scene_text.hpp"
 
 namespace moraine {
@@ -14,24 +12,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-struct Ended {
-  int status = -1;
-  std::string text;  ///< of both streams
-};
-
-/// Runs a shell line in which `moraine` is the command under test, in an environment without MORAINE_ variables.
-Ended shell(const std::string& line) {
-  const std::string whole =
-      "for v in $(env | sed -n 's/^\\(MORAINE_[A-Z_]*\\)=.*/\\1/p'); do unset $v; done; moraine() { " +
-      std::string(MORAINE_COMMAND) + " \"$@\"; }; { " + line + "; } 2>&1";
-  FILE* pipe = ::popen(whole.c_str(), "r");
-  Ended ended;
-  std::array<char, 4096> buffer;
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) ended.text.append(buffer.data(), n);
-  const int raw = ::pclose(pipe);
-  ended.status = WIFEXITED(raw) ? WEXITSTATUS(raw) : 128 + WTERMSIG(raw);
-  return ended;
-}
+using test::Ended;
+using test::shell;
 
 const std::string good = R"(
 name: two balls

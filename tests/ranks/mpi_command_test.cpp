@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command under mpirun: the same answer, one error for all, going on after a kill.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/shell.hpp"
+
+namespace moraine {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using test::Ended;
+using test::shell;
+
+class Mpi : public testing::Test {
+ protected:
+  void SetUp() override {
+    out_ = fs::temp_directory_path() / ("moraine_mpi_" + std::to_string(getpid()) + "_" +
+                                        testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(out_);
+  }
+  void TearDown() override { fs::remove_all(out_); }
+
+  /// The shell's words for running dam on some ranks; 0: without mpirun.
+  std::string line(int ranks, const std::string& options) const {
+    const std::string launch = ranks == 0 ? "" : "mpirun --oversubscribe -np " + std::to_string(ranks) + " ";
+    return "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; " + launch + MORAINE_COMMAND + " run " +
+           MORAINE_SOURCE_DIR
+           "/apps/scenes/dam.yaml --set count=600 --sub-models 7 --threads 1 --quiet --set "
+           "output.pictures=false --out " +
+           out_.string() + " " + options;
+  }
+  Ended run(int ranks, const std::string& options) const { return shell(line(ranks, options)); }
+  Json summary() const { return Json::parse(std::ifstream(out_ / "summary.json")); }
+  std::string hash(int ranks, const std::string& options) const {
+    const Ended ended = run(ranks, options);
+    EXPECT_EQ(ended.status, 0) << ended.text;
+    return summary().at("state_hash");
+  }
+
+  fs::path out_;
+};
+
+TEST_F(Mpi, GivesTheAnswerOfOneProcess) {
+  const std::string alone = hash(0, "--steps 200");
+  EXPECT_EQ(summary().at("ranks"), 1);
+  EXPECT_EQ(hash(2, "--steps 200 --balancer rotate --output-every 30"), alone);
+  EXPECT_EQ(summary().at("ranks"), 2);
+  EXPECT_GT(summary().at("load").at("migrations"), 7);
+  EXPECT_EQ(hash(3, "--steps 200 --balancer graph"), alone);
+}
+
+TEST_F(Mpi, AnErrorIsSaidOnceAndEndsAllRanks) {
+  const Ended ended = run(3, "--steps 200 --set run.max_speed=2");
+  EXPECT_EQ(ended.status, 3) << ended.text;
+  const std::size_t first = ended.text.find("runs away at step");
+  EXPECT_NE(first, std::string::npos) << ended.text;
+  EXPECT_EQ(ended.text.find("runs away at step", first + 1), std::string::npos) << ended.text;
+  EXPECT_NE(ended.text.find("step of sub-model"), std::string::npos) << ended.text;
+}
+
+TEST_F(Mpi, WrongInputEndsAllRanks) {
+  const Ended ended = run(3, "--set nonsense.key=1");
+  EXPECT_EQ(ended.status, 2) << ended.text;
+}
+
+/// One rank is killed in the middle; the others end, and the run goes on from its last checkpoint on other ranks.
+TEST_F(Mpi, GoesOnAfterAKill) {
+  const std::string steps = "--steps 1500 --checkpoint-every 20 ";
+  const std::string whole = hash(0, steps);
+  fs::remove_all(out_);
+  const Ended killed =
+      shell(line(2, steps) + " & sleep 2; pkill -9 -n -f 'moraine run.*" + out_.filename().string() + "'; wait $!");
+  EXPECT_NE(killed.status, 0);
+  EXPECT_NE(killed.text.find("--restart latest"), std::string::npos) << killed.text;
+  EXPECT_EQ(hash(3, steps + "--restart latest"), whole);
+}
+
+}  // namespace
+}  // namespace moraine
