@@ -30,6 +30,24 @@ Json json_of(const Summary::Load& l) {
           {"migrations", l.migrations}};
 }
 
+Json json_of(const Summary::Balance::Round& r) {
+  return {{"step", r.step},     {"imbalance", r.imbalance}, {"forecast", r.forecast}, {"gain_s", r.gain_s},
+          {"cost_s", r.cost_s}, {"moves", r.moves},         {"bytes", r.bytes}};
+}
+
+Json json_of(const Summary::Balance& b) {
+  Json rounds = Json::array();
+  for (const auto& round : b.rounds) rounds.push_back(json_of(round));
+  return {{"seconds", b.seconds}, {"moved_bytes", b.moved_bytes}, {"rounds", rounds}};
+}
+
+Json json_of(const Summary::Messages& m) {
+  return {{"per_round", m.per_round},
+          {"bytes_per_round", m.bytes_per_round},
+          {"between_ranks", m.between_ranks},
+          {"pairs", m.pairs}};
+}
+
 Json setup_of(const Summary& s) {
   return {{"scene", s.scene},
           {"engine", s.engine},
@@ -63,6 +81,8 @@ Json results_of(const Summary& s) {
           {"overlap", {{"max", s.overlap.max}, {"mean", s.overlap.mean}}},
           {"coupling_residual", s.coupling_residual},
           {"load", json_of(s.load)},
+          {"balance", json_of(s.balance)},
+          {"messages", json_of(s.messages)},
           {"step_share", s.step_share},
           {"recuts", s.recuts},
           {"warnings", s.warnings}};

@@ -53,6 +53,26 @@ struct Summary {
     double waiting_fraction = 0;  ///< share spent waiting for others
     std::uint64_t migrations = 0;
   } load;
+  struct Balance {
+    double seconds = 0;      ///< spent by the slowest rank on collecting, planning, moving
+    double moved_bytes = 0;  ///< by all ranks
+    struct Round {
+      std::int64_t step = 0;
+      double imbalance = 1;  ///< max/mean busy time of ranks since the round before
+      double forecast = 1;   ///< with the owners proposed
+      double gain_s = 0;     ///< forecast; the owners change if it exceeds the cost
+      double cost_s = 0;
+      std::int64_t moves = 0;  ///< carried out
+      double bytes = 0;
+    };
+    std::vector<Round> rounds;
+  } balance;
+  struct Messages {
+    double per_round = 0;        ///< between sub-models
+    double bytes_per_round = 0;  ///< without envelopes
+    double between_ranks = 0;    ///< of per_round
+    double pairs = 0;            ///< of sub-models, one way, mean over epochs
+  } messages;
   std::map<std::string, double> step_share;  ///< share of the busy time per stage
   std::uint64_t recuts = 0;                  ///< times the scene was split anew
   std::vector<std::string> warnings;

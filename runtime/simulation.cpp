@@ -79,6 +79,8 @@ void Simulation::run_epoch(const Epoch& epoch) {
   const std::optional<RunError> error = attempt(graph, epoch);
   if (const std::optional<RunError> first = first_failure(transport_, error)) throw RunError(*first);
   load_.merge(last_);
+  mail_.close_epoch();
+  rounds_ += epoch.rounds;
   balance_.note(model_, epoch, last_, mail_.sent());
 }
 

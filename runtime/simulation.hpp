@@ -57,6 +57,9 @@ class Simulation {
   /// Of this rank, of all rounds so far. What happens between epochs is not in it.
   const LoadRecord& load() const { return load_; }
   const Rebalance& balance() const { return balance_; }
+  /// Of this rank.
+  const Mail::Totals& messages() const { return mail_.totals(); }
+  std::int64_t rounds() const { return rounds_; }
 
  private:
   struct NextEpoch {
@@ -79,6 +82,7 @@ class Simulation {
   Mail mail_;
   Rebalance balance_;
   Checkpoints checkpoints_;
+  std::int64_t rounds_ = 0;
   LoadRecord load_;
   LoadRecord last_;  ///< the last epoch's
 };

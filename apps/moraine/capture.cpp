@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <numeric>
+
 #include "ghosting/collect.hpp"
 #include "ghosting/fields.hpp"
 #include "ghosting/state_hash.hpp"
@@ -17,12 +19,18 @@ std::uint64_t peak_rss_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-double sum_over_ranks(runtime::Transport& transport, double own) {
+/// A number of each rank.
+std::vector<double> over_ranks(runtime::Transport& transport, double own) {
   runtime::Bytes told;
   ByteWriter(told).put(own);
-  double sum = 0;
-  for (const runtime::Bytes& b : all_gather(transport, told)) sum += ByteReader(b).get<double>();
-  return sum;
+  std::vector<double> all;
+  for (const runtime::Bytes& b : all_gather(transport, told)) all.push_back(ByteReader(b).get<double>());
+  return all;
+}
+
+double sum_over_ranks(runtime::Transport& transport, double own) {
+  const std::vector<double> all = over_ranks(transport, own);
+  return std::accumulate(all.begin(), all.end(), 0.0);
 }
 
 Frame::Bodies capture_elements(const CoupledModel& model) {
@@ -65,6 +73,28 @@ Frame::Bodies capture_ghosts(const CoupledModel& model, runtime::Transport& tran
       out.shape.push_back(e.shape);
     }
   return out;
+}
+
+Summary::Balance summarise(const runtime::Rebalance& balance, runtime::Transport& transport, int substeps) {
+  Summary::Balance out;
+  double seconds = 0;
+  for (const runtime::BalanceRecord& r : balance.records()) {
+    seconds += r.seconds;
+    out.moved_bytes += r.moved_bytes;
+    out.rounds.push_back({r.round / substeps, r.imbalance, r.decision.after.imbalance, r.decision.gain_seconds,
+                          r.decision.cost_seconds, r.carried_out ? r.decision.moves : 0, r.moved_bytes});
+  }
+  for (const double other : over_ranks(transport, seconds)) out.seconds = std::max(out.seconds, other);
+  return out;
+}
+
+Summary::Messages summarise_messages(const runtime::Simulation& simulation) {
+  runtime::Transport& transport = simulation.transport();
+  const runtime::Mail::Totals& own = simulation.messages();
+  const double rounds = std::max(1.0, static_cast<double>(simulation.rounds()));
+  return {sum_over_ranks(transport, own.messages) / rounds, sum_over_ranks(transport, own.bytes) / rounds,
+          sum_over_ranks(transport, own.between_ranks) / rounds,
+          sum_over_ranks(transport, own.pairs) / std::max(1.0, own.epochs)};
 }
 
 }  // namespace
@@ -128,6 +158,8 @@ Summary summarise(const CoupledModel& model, const runtime::Simulation& simulati
   s.coupling_residual = statistics.coupling_residual;
   s.load = {load.imbalance(), load.utilisation(), load.waiting_fraction(),
             static_cast<std::uint64_t>(simulation.balance().migrations())};
+  s.balance = summarise(simulation.balance(), transport, scene.time.substeps);
+  s.messages = summarise_messages(simulation);
   for (std::size_t i = 0; i < load.stages.size(); ++i)
     s.step_share[std::string(SubModel::stages()[i].name)] = load.busy() > 0 ? load.stages[i].seconds / load.busy() : 0;
   s.recuts = statistics.recuts;

@@ -38,13 +38,13 @@ void read_label(const Node& node, TimeSettings::Label& label) {
   label.per_step = node.at("per_step", "units per step").positive();
 }
 
-/// balance_by: counted or measured.
+/// balance_by: measured or counted.
 bool read_measured(const Node& node) {
   const auto found = node.find("balance_by");
-  if (!found || found->text() == "counted") return false;
-  if (found->text() != "measured")
-    found->fail(fmt::format("unknown kind of load '{}', expected counted or measured", found->text()));
-  return true;
+  if (!found || found->text() == "measured") return true;
+  if (found->text() != "counted")
+    found->fail(fmt::format("unknown kind of load '{}', expected measured or counted", found->text()));
+  return false;
 }
 
 int read_sub_models(const Node& node) {

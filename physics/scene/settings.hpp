@@ -35,7 +35,7 @@ struct RunSettings {
   int threads = 0;                  ///< of each rank; 0: its share of the cores it may use
   std::string balancer = "refine";  ///< which rank owns which sub-model
   int balance_every = 1;            ///< steps from one balance to the next, at least
-  bool balance_measured = false;    ///< by measured time instead of counted work
+  bool balance_measured = true;     ///< by measured time; else by counted work: the same plans every time
   int checkpoint_every = 0;         ///< steps from one checkpoint to the next, at least; 0: none
   std::string restart;              ///< folder of a checkpoint, or "latest"; empty: from the start
   double max_speed = 0;             ///< runaway limit [m/s]; 0: from the scene's energy

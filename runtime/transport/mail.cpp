@@ -230,4 +230,15 @@ std::vector<Mail::Sent> Mail::sent() const {
   return out;
 }
 
+void Mail::close_epoch() {
+  ++totals_.epochs;
+  for (const Line& line : lines_) {
+    if (!line.from_here) continue;
+    totals_.messages += static_cast<double>(line.messages);
+    totals_.bytes += static_cast<double>(line.bytes);
+    totals_.between_ranks += line.to_rank == transport_.rank() ? 0 : static_cast<double>(line.messages);
+    ++totals_.pairs;
+  }
+}
+
 }  // namespace moraine::runtime

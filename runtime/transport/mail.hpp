@@ -47,6 +47,17 @@ class Mail {
   };
   std::vector<Sent> sent() const;
 
+  /// Over all epochs, sent from here.
+  struct Totals {
+    double messages = 0, bytes = 0;
+    double between_ranks = 0;  ///< messages to other ranks
+    double pairs = 0;          ///< of sub-models, one way, times epochs
+    double epochs = 0;
+  };
+  const Totals& totals() const { return totals_; }
+  /// Called at the end of an epoch.
+  void close_epoch();
+
  private:
   class Box;
   struct alignas(64) Slot {
@@ -99,6 +110,7 @@ class Mail {
     std::int64_t round;  ///< in which it is read
   };
   std::vector<Ready> ready_;  ///< arrived and not yet told
+  Totals totals_;
 };
 
 }  // namespace moraine::runtime
