@@ -41,6 +41,7 @@ std::uint64_t hash_after(const Scene& scene, Model& model) {
 }
 
 struct Case {
+  const char* name;
   const char* scene;
   std::vector<Override> settings;
 };
@@ -55,16 +56,21 @@ TEST_P(Reload, ChangesNothing) {
   EXPECT_GT(reloaded.reloads, 2 * static_cast<int>(scene.run.sub_models));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Reload,
-                         testing::Values(Case{"crust_small",
-                                              {set("count", 800), set("radius", "3000"), set("dt", 1),
-                                               set("steps", 100), set("run.sub_models", 4)}},
-                                         Case{"dam",
-                                              {set("count", 600), set("time.duration", 2), set("run.sub_models", 5)}},
-                                         Case{"mixed_shapes", {set("time.duration", 1.5), set("run.sub_models", 4)}},
-                                         Case{"bonded_beam", {set("time.duration", 0.5), set("run.sub_models", 3)}},
-                                         Case{"column", {set("time.duration", 1), set("run.sub_models", 5)}}),
-                         [](const auto& test) { return test.param.scene; });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, Reload,
+    testing::Values(Case{"crust_small",
+                         "crust_small",
+                         {set("count", 800), set("radius", "3000"), set("dt", 1), set("steps", 100),
+                          set("run.sub_models", 4)}},
+                    Case{"dam", "dam", {set("count", 600), set("time.duration", 2), set("run.sub_models", 5)}},
+                    Case{"mixed_shapes", "mixed_shapes", {set("time.duration", 1.5), set("run.sub_models", 4)}},
+                    Case{"bonded_beam", "bonded_beam", {set("time.duration", 0.5), set("run.sub_models", 3)}},
+                    Case{"soft_spheres",
+                         "dam",
+                         {set("count", 300), set("time.dt", 3e-4), set("time.duration", 0.3), set("run.sub_models", 4),
+                          set("run.engine", "soft_sphere"), set("materials.grain.restitution", 0.5)}},
+                    Case{"column", "column", {set("time.duration", 1), set("run.sub_models", 5)}}),
+    [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace moraine
