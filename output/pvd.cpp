@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
+#include <sstream>
 
 #include "output/file.hpp"
 #include "output/frame_name.hpp"
@@ -75,30 +77,52 @@ VtuGrid bond_grid(const Scene& scene, const Frame& frame) {
   return grid;
 }
 
-/// One group's index, rewritten with every frame.
+/// One group's index, rewritten with every frame. After a restart it goes on with the frames written before.
 class Index {
  public:
-  Index(const std::filesystem::path& folder, const char* group) : folder_(folder), group_(group) {}
+  Index(const std::filesystem::path& folder, const char* group, bool go_on) : folder_(folder), group_(group) {
+    if (go_on && std::filesystem::exists(path())) read();
+  }
   void write(const Frame& frame, const VtuGrid& grid) {
     const std::string name = fmt::format("{}/{}", kFrames, frame_name(group_, frame.step, "vtu"));
     write_vtu(folder_ / name, grid);
-    rows_ += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, name);
-    replace_file(folder_ / fmt::format("{}.pvd", group_),
+    std::erase_if(rows_, [&](const Row& row) { return row.time >= frame.time; });
+    rows_.push_back({frame.time, fmt::format("{}{}\" part=\"0\" file=\"{}\"/>\n", kRow, frame.time, name)});
+    std::string rows;
+    for (const Row& row : rows_) rows += row.text;
+    replace_file(path(),
                  "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
                  "byte_order=\"LittleEndian\">\n<Collection>\n" +
-                     rows_ + "</Collection>\n</VTKFile>\n");
+                     rows + "</Collection>\n</VTKFile>\n");
   }
 
  private:
+  static constexpr const char* kRow = "<DataSet timestep=\"";
+  struct Row {
+    double time;
+    std::string text;
+  };
+
+  std::filesystem::path path() const { return folder_ / fmt::format("{}.pvd", group_); }
+
+  void read() {
+    std::istringstream lines(read_file(path()));
+    for (std::string line; std::getline(lines, line);)
+      if (line.starts_with(kRow)) rows_.push_back({std::stod(line.substr(std::strlen(kRow))), line + "\n"});
+  }
+
   std::filesystem::path folder_;
   const char* group_;
-  std::string rows_;
+  std::vector<Row> rows_;
 };
 
 class PvdWriter : public Writer {
  public:
   PvdWriter(const Scene& scene, const std::filesystem::path& folder)
-      : scene_(scene), elements_(folder, "elements"), ghosts_(folder, "ghosts"), bonds_(folder, "bonds") {
+      : scene_(scene),
+        elements_(folder, "elements", !scene.run.restart.empty()),
+        ghosts_(folder, "ghosts", !scene.run.restart.empty()),
+        bonds_(folder, "bonds", !scene.run.restart.empty()) {
     make_folder(folder / kFrames);
     write_scene_table(scene, folder);
   }

@@ -68,6 +68,16 @@ TEST_F(Mpi, WrongInputEndsAllRanks) {
   EXPECT_EQ(ended.status, 2) << ended.text;
 }
 
+/// Frames written before a stop stay in the index.
+TEST_F(Mpi, KeepsFramesOverARestart) {
+  EXPECT_EQ(run(0, "--steps 120 --output-every 30 --checkpoint-every 10").status, 0);
+  EXPECT_EQ(run(2, "--steps 200 --output-every 30 --checkpoint-every 10 --restart latest").status, 0);
+  std::ifstream index(out_ / "elements.pvd");
+  int frames = 0;
+  for (std::string line; std::getline(index, line);) frames += line.starts_with("<DataSet") ? 1 : 0;
+  EXPECT_EQ(frames, 8) << "steps 0, 30, 60, 90, 120, 150, 180, 200";
+}
+
 /// One rank is killed in the middle; the others end, and the run goes on from its last checkpoint on other ranks.
 TEST_F(Mpi, GoesOnAfterAKill) {
   const std::string steps = "--steps 1500 --checkpoint-every 20 ";
