@@ -7,13 +7,14 @@
 
 #include "physics/bullet/engine.hpp"
 #include "physics/errors.hpp"
+#include "physics/impulse/engine.hpp"
 #include "physics/soft_sphere/engine.hpp"
 #include "physics/world.hpp"
 
 namespace moraine {
 
 std::span<const Engine> engines() {
-  static const std::array table{bullet::engine(), soft_sphere::engine()};
+  static const std::array table{bullet::engine(), impulse::engine(), soft_sphere::engine()};
   return table;
 }
 

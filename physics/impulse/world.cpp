@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/impulse/world.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "physics/errors.hpp"
+
+namespace moraine::impulse {
+namespace {
+
+// Lists last longer with a larger skin, but hold more pairs. [diameters]
+constexpr float least_skin = 0.25F, largest_skin = 0.6F;
+constexpr float steps_per_list = 6;  ///< that the fastest body should be free to go
+
+}  // namespace
+
+ImpulseWorld::ImpulseWorld(const WorldSettings& settings, const Vec3& origin)
+    : settings_(settings),
+      units_(settings, origin),
+      rule_(settings, units_),
+      bodies_(units_),
+      pairs_(rule_),
+      walls_(rule_, units_, *settings.scene),
+      bonds_(*settings.scene, units_),
+      turns_(rule_.friction) {}
+
+Slot ImpulseWorld::add(const Body& body) {
+  const std::size_t count = bodies_.roster.count() + walls_.walls().size() + 1;
+  if (count > settings_.limits.elements)
+    throw InputError(
+        fmt::format("engine impulse: {} elements, ghosts and boundaries in one sub-model, the limit is {}; use more "
+                    "sub-models",
+                    count, settings_.limits.elements));
+  turns_ |= !body.state.twist.angular.isZero(0);
+  return bodies_.add(body, settings_.scene->shapes[body.shape]);
+}
+
+void ImpulseWorld::set_state(Slot slot, const ElementState& state) {
+  turns_ |= !state.twist.angular.isZero(0);
+  bodies_.set_state(bodies_.place(slot), state);
+}
+
+void ImpulseWorld::apply_impulse(Slot slot, const Impulse& impulse) {
+  turns_ |= !impulse.angular.isZero(0);
+  bodies_.push(bodies_.place(slot), impulse);
+}
+
+void ImpulseWorld::motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const {
+  out.resize(slots.size());
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const Place p = bodies_.place(slots[i]);
+    out[i] = {units_.position(bodies_.position[p]), bodies_.twist(p)};
+  }
+}
+
+void ImpulseWorld::step(double t) {
+  settle();
+  bonds_.break_long(bodies_);
+  walls_.walls().move(t);
+  if (!listed_ || moved_too_far()) list_anew();
+  gather();
+  for (Moving& m : bodies_.moving) m.velocity += rule_.fall;
+  warm_start();
+  for (int k = 0; k < rule_.sweeps; ++k) sweep(rule_.softness);
+  bodies_.advance(rule_.h, turns_);
+  pairs_.relax_from(bodies_);
+  walls_.relax_from(bodies_.moving.data());
+  sweep({});
+  bonds_.keep_impulses();
+  walls_.sum_impulse(bodies_);
+}
+
+/// Contacts follow their bodies to new places; those of bodies that left end.
+void ImpulseWorld::settle() {
+  if (!bodies_.roster.unsettled()) return;
+  bodies_.settle();
+  pairs_.follow(bodies_.roster.moved());
+  walls_.follow(bodies_.roster.moved());
+  listed_ = false;
+}
+
+void ImpulseWorld::gather() {
+  pairs_.gather(bodies_);
+  walls_.gather(bodies_);
+  bonds_.gather(bodies_, rule_.h);
+}
+
+void ImpulseWorld::warm_start() {
+  bonds_.warm_start(bodies_.moving.data());
+  pairs_.warm_start(bodies_.moving.data());
+  walls_.warm_start(bodies_.moving.data());
+}
+
+void ImpulseWorld::sweep(const Softness& softness) {
+  bonds_.sweep(bodies_.moving.data());
+  pairs_.sweep(bodies_.moving.data(), softness);
+  walls_.sweep(bodies_.moving.data(), softness);
+}
+
+/// Lists hold every pair that may come within the reach of contacts.
+bool ImpulseWorld::moved_too_far() const {
+  const float limit = 0.499F * (skin_ - StepRule::reach);
+  bool far = walls_.walls().moved() >= static_cast<double>(limit) * units_.length;
+  for (Place p = 0; p < bodies_.size(); ++p)
+    far |= (bodies_.position[p] - listed_at_[p]).squaredNorm() >= limit * limit;
+  return far;
+}
+
+float ImpulseWorld::suitable_skin() const {
+  float fastest2 = 0;
+  for (const Moving& m : bodies_.moving) fastest2 = std::max(fastest2, m.velocity.squaredNorm());
+  const float way = steps_per_list * rule_.h * std::sqrt(fastest2);
+  return std::clamp(StepRule::reach + 2 * way, least_skin, largest_skin);
+}
+
+void ImpulseWorld::list_anew() {
+  skin_ = suitable_skin();
+  balls_.resize(bodies_.size());
+  for (Place p = 0; p < bodies_.size(); ++p)
+    balls_[p] = {units_.position(bodies_.position[p]), units_.length * static_cast<double>(bodies_.radius(p))};
+  const double skin = static_cast<double>(skin_) * units_.length;
+  grid_.build(balls_, skin);
+  pairs_.list(grid_, balls_, bodies_.ghost, skin);
+  walls_.list(grid_, balls_, bodies_.ghost, skin);
+  listed_at_ = bodies_.position;
+  listed_ = true;
+}
+
+Contact ImpulseWorld::contact(const PairRow& row) const {
+  const Vec3 between = wide(bodies_.position[row.a] - bodies_.position[row.b]);
+  const double radius = bodies_.radius(row.a);
+  Contact c;
+  c.a = bodies_.roster.id(row.a);
+  c.b = bodies_.roster.id(row.b);
+  c.normal = wide(row.normal);
+  c.overlap = units_.length * (radius + bodies_.radius(row.b) - between.norm());
+  c.point = units_.position(bodies_.position[row.a]) - (units_.length * radius - c.overlap / 2) * c.normal;
+  c.impulse = units_.momentum() * wide(row.push * row.normal + row.side);
+  return c;
+}
+
+Contact ImpulseWorld::contact(const WallRow& row) const {
+  const double radius = units_.length * static_cast<double>(bodies_.radius(row.ball));
+  Contact c;
+  c.a = bodies_.roster.id(row.ball);
+  c.b = row.wall;
+  c.with_boundary = true;
+  c.normal = wide(row.normal);
+  c.overlap = -units_.length * static_cast<double>(row.gap);
+  c.point = units_.position(bodies_.position[row.ball]) - (radius - c.overlap) * c.normal;
+  c.impulse = units_.momentum() * wide(row.push * row.normal + row.side);
+  return c;
+}
+
+std::vector<Contact> ImpulseWorld::contacts() const {
+  std::vector<Contact> out;
+  if (bodies_.roster.unsettled()) return out;
+  for (const PairRow& row : pairs_.rows()) out.push_back(contact(row));
+  for (const WallRow& row : walls_.rows()) out.push_back(contact(row));
+  std::erase_if(out, [](const Contact& c) { return c.overlap <= 0 && c.impulse.isZero(0); });
+  std::stable_sort(out.begin(), out.end(), [](const Contact& p, const Contact& q) {
+    return std::tuple(p.a, p.with_boundary, p.b) < std::tuple(q.a, q.with_boundary, q.b);
+  });
+  return out;
+}
+
+StepWork ImpulseWorld::work() const {
+  return {bodies_.roster.count(), pairs_.rows().size() + walls_.rows().size(), bonds_.entries().size()};
+}
+
+}  // namespace moraine::impulse

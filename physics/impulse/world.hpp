@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The impulse engine behind the world contract: sequential impulses for spheres, float32.
+#pragma once
+
+#include <vector>
+
+#include "physics/impulse/bonds.hpp"
+#include "physics/impulse/pair_contacts.hpp"
+#include "physics/impulse/wall_contacts.hpp"
+#include "physics/world.hpp"
+
+namespace moraine::impulse {
+
+/// A step (Catto, "Solver2D" 2024, there a sub-step of "soft step"): gravity; last step's impulses; sweeps over all
+/// rows with soft contacts; positions; one more sweep that takes back the speed with which overlaps were removed, and
+/// in which impacts rebound. Rows are solved in id order: bonds, pairs, boundaries.
+class ImpulseWorld final : public World {
+ public:
+  ImpulseWorld(const WorldSettings& settings, const Vec3& origin);
+
+  Slot add(const Body& body) override;
+  void remove(Slot slot) override { bodies_.roster.remove(slot); }
+  void set_state(Slot slot, const ElementState& state) override;
+  ElementState state(Slot slot) const override { return bodies_.state(bodies_.place(slot)); }
+  Vec3 position(Slot slot) const override { return units_.position(bodies_.position[bodies_.place(slot)]); }
+  void motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const override;
+  void set_mass(Slot slot, double mass) override { bodies_.set_mass(bodies_.place(slot), mass); }
+  void apply_impulse(Slot slot, const Impulse& impulse) override;
+
+  void add_bond(std::uint32_t bond, Slot a, Slot b) override { bonds_.add({bond, a, b, 0}); }
+  void remove_bond(std::uint32_t bond) override { bonds_.remove(bond); }
+  std::span<const std::uint32_t> broken_bonds() const override { return bonds_.broken(); }
+
+  void step(double t) override;
+
+  Impulse boundary_impulse() const override { return walls_.impulse(); }
+  std::vector<Contact> contacts() const override;
+  StepWork work() const override;
+
+  void canonicalise() override { settle(); }
+  void save(std::vector<std::byte>& out) const override;
+  void load(std::span<const std::byte> in) override;
+
+ private:
+  void settle();
+  bool moved_too_far() const;
+  void list_anew();
+  float suitable_skin() const;
+  void gather();
+  void warm_start();
+  void sweep(const Softness& softness);
+  Contact contact(const PairRow& row) const;
+  Contact contact(const WallRow& row) const;
+
+  WorldSettings settings_;
+  Units units_;
+  StepRule rule_;
+  Bodies bodies_;
+  PairContacts pairs_;
+  WallContacts walls_;
+  Bonds bonds_;
+  bool turns_ = false;  ///< some body may turn
+
+  native::SizedGrid grid_;
+  std::vector<native::Ball> balls_;  ///< of the last listing, world frame [m]
+  std::vector<Vec> listed_at_;
+  float skin_ = 0;  ///< of the lists
+  bool listed_ = false;
+};
+
+}  // namespace moraine::impulse

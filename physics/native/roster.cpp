@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/native/roster.hpp"
+
+#include <algorithm>
+
+namespace moraine::native {
+
+Slot Roster::add(ElementId id) {
+  if (free_.empty()) {
+    free_.push_back(static_cast<Slot>(places_.size()));
+    places_.push_back(nowhere);
+  }
+  const Slot slot = free_.back();
+  free_.pop_back();
+  places_[slot] = static_cast<Place>(size());
+  members_.push_back({id, slot});
+  removed_.push_back(0);
+  unsettled_ = true;
+  return slot;
+}
+
+void Roster::remove(Slot slot) {
+  removed_[places_[slot]] = 1;
+  places_[slot] = nowhere;
+  free_.push_back(slot);
+  ++gone_;
+  unsettled_ = true;
+}
+
+void Roster::settle() {
+  order_.clear();
+  for (Place p = 0; p < size(); ++p)
+    if (!removed_[p]) order_.push_back(p);
+  std::sort(order_.begin(), order_.end(), [&](Place a, Place b) { return id(a) < id(b); });
+  moved_.assign(size(), nowhere);
+  for (Place p = 0; p < order_.size(); ++p) moved_[order_[p]] = p;
+  reorder(members_, order_);
+  removed_.assign(size(), 0);
+  for (Place p = 0; p < size(); ++p) places_[members_[p].slot] = p;
+  gone_ = 0;
+  unsettled_ = false;
+}
+
+void Roster::restore(std::vector<Member> members, std::size_t slots, std::vector<Slot> free) {
+  members_ = std::move(members);
+  free_ = std::move(free);
+  removed_.assign(size(), 0);
+  gone_ = 0;
+  unsettled_ = false;
+  places_.assign(slots, nowhere);
+  for (Place p = 0; p < size(); ++p) places_[members_[p].slot] = p;
+}
+
+}  // namespace moraine::native
