@@ -31,6 +31,7 @@ Slot Bodies::add(const Body& body, const Shape& shape) {
   attitude.emplace_back();
   ghost.push_back(body.role == Role::ghost);
   set_mass(place(slot), body.mass);
+  whole.push_back(weight.back().inverse_mass);
   set_state(place(slot), body.state);
   return slot;
 }
@@ -65,6 +66,7 @@ void Bodies::settle() {
   native::reorder(weight, roster.order());
   native::reorder(attitude, roster.order());
   native::reorder(ghost, roster.order());
+  native::reorder(whole, roster.order());
 }
 
 void Bodies::advance(float h, bool turn) {

@@ -37,6 +37,8 @@ class Bodies {
   void set_state(Place p, const ElementState& state);
   ElementState state(Place p) const { return {{units_.position(position[p]), orientation(p)}, twist(p)}; }
   Twist twist(Place p) const;
+  /// Other worlds hold copies of it.
+  bool shared(Place p) const { return ghost[p] || weight[p].inverse_mass > whole[p]; }
   /// A change of velocities by an impulse in SI.
   void push(Place p, const Impulse& impulse);
 
@@ -51,6 +53,7 @@ class Bodies {
   std::vector<Weight> weight;
   std::vector<Vec> attitude;  ///< quaternions x, y, z, w
   std::vector<std::uint8_t> ghost;
+  std::vector<float> whole;  ///< inverse mass when added
 
  private:
   Quat orientation(Place p) const;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/impulse/pair_contacts.hpp"
 
+#include <numeric>
+
 namespace moraine::impulse {
 namespace {
 
-static_assert(sizeof(PairRow) == 64);
+static_assert(sizeof(PairRow) == 80);
 
 std::uint64_t key(const PairRow& r) { return std::uint64_t{r.a} << 32 | r.b; }
 
@@ -53,46 +55,73 @@ void PairContacts::restore(std::vector<PairRow> rows) {
 void PairContacts::gather(const Bodies& bodies) {
   std::swap(rows_, before_);
   count_before_ = std::exchange(count_, 0);
-  passed_ = 0;
-  if (rows_.size() < pairs_.size()) rows_.resize(pairs_.size());
-  if (rule_.restitution && rebound_.size() < pairs_.size()) rebound_.resize(pairs_.size());
+  find_close(bodies);
+  if (rows_.size() <= close_.size()) rows_.resize(close_.size() + 1);
+  for (const std::uint32_t k : close_) count_ += fill(bodies, k, rows_[count_]);
+  take_up_impulses();
+  put_in_order();
+}
+
+/// Without branches: which pairs are close cannot be guessed.
+void PairContacts::find_close(const Bodies& bodies) {
   const Place *low = pairs_.lower().data(), *high = pairs_.higher().data();
+  const Vec* position = bodies.position.data();
+  close_.resize(pairs_.size() + 1);
+  std::size_t found = 0;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    const Place a = low[k], b = high[k];
-    const Vec between = bodies.position[a] - bodies.position[b];
-    const float radii = bodies.radius(a) + bodies.radius(b), limit = radii + StepRule::reach;
-    const float distance2 = three(between).squaredNorm();
-    if (!(distance2 < limit * limit)) continue;
-    const float distance = std::sqrt(distance2), gap = distance - radii;
-    const Vec normal = distance > 0 ? Vec(three(between) / distance) : Vec(Vec::UnitZ());
-    const float closing = normal.dot(bodies.moving[b].velocity - bodies.moving[a].velocity);
-    if (!rule_.near(gap, closing)) continue;
-    const Weight &wa = bodies.weight[a], &wb = bodies.weight[b];
-    const PairConstants& law = rule_.of(wa.material, wb.material);
-    PairRow& row = rows_[count_];
-    row.normal = normal;
-    row.a = a;
-    row.b = b;
-    row.inverse_mass_a = wa.inverse_mass;
-    row.inverse_mass_b = wb.inverse_mass;
-    row.approach = rule_.approach(gap);
-    row.mass = 1 / (wa.inverse_mass + wb.inverse_mass);
-    row.friction = law.friction;
-    if (rule_.restitution) rebound_[count_] = rule_.rebound(law.restitution, closing);
-    take_up(row);
-    ++count_;
+    const Vec &a = position[low[k]], &b = position[high[k]];
+    const float limit = a.w() + b.w() + rule_.reach();
+    close_[found] = static_cast<std::uint32_t>(k);
+    found += three(a - b).squaredNorm() < limit * limit;
+  }
+  close_.resize(found);
+}
+
+/// Writes the row of a pair; false if it is not needed.
+bool PairContacts::fill(const Bodies& bodies, std::size_t pair, PairRow& row) const {
+  row.a = pairs_.lower()[pair];
+  row.b = pairs_.higher()[pair];
+  const Vec between = three(bodies.position[row.a] - bodies.position[row.b]);
+  const float distance = between.norm(), gap = distance - bodies.radius(row.a) - bodies.radius(row.b);
+  row.normal = distance > 0 ? Vec((1 / distance) * between) : Vec(Vec::UnitZ());
+  const float closing = row.normal.dot(bodies.moving[row.b].velocity - bodies.moving[row.a].velocity);
+  const Weight &a = bodies.weight[row.a], &b = bodies.weight[row.b];
+  const PairConstants& law = rule_.of(a.material, b.material);
+  row.inverse_mass_a = a.inverse_mass;
+  row.inverse_mass_b = b.inverse_mass;
+  row.mass = 1 / (a.inverse_mass + b.inverse_mass);
+  row.push = 0;
+  row.side.setZero();
+  return rule_.prepare(row, gap, closing, law, bodies.shared(row.a) || bodies.shared(row.b));
+}
+
+/// From the rows of the step before, turned with the contact. What made an impact does not go on.
+void PairContacts::take_up_impulses() {
+  std::size_t passed = 0;
+  for (std::size_t k = 0; k < count_; ++k) {
+    PairRow& row = rows_[k];
+    while (passed < count_before_ && key(before_[passed]) < key(row)) ++passed;
+    if (passed == count_before_) return;
+    const PairRow& old = before_[passed];
+    if (key(old) != key(row) || old.rebound > 0) continue;
+    row.push = old.push;
+    row.side = old.side - old.side.dot(row.normal) * row.normal;
   }
 }
 
-/// The impulses of the step before, turned with the contact.
-void PairContacts::take_up(PairRow& row) {
-  row.push = 0;
-  row.side.setZero();
-  while (passed_ < count_before_ && key(before_[passed_]) < key(row)) ++passed_;
-  if (passed_ == count_before_ || key(before_[passed_]) != key(row)) return;
-  const PairRow& old = before_[passed_];
-  row.push = old.push;
-  row.side = old.side - old.side.dot(row.normal) * row.normal;
+/// First the first contacts of all bodies, then their second ones, and so on: the processor can work on several rows at
+/// once where neighbours in the order do not share a body.
+void PairContacts::put_in_order() {
+  order_end_.clear();
+  rank_.resize(count_);
+  for (std::size_t k = 0; k < count_; ++k) {
+    rank_[k] = k > 0 && rows_[k - 1].a == rows_[k].a ? rank_[k - 1] + 1 : 0;
+    if (rank_[k] >= order_end_.size()) order_end_.push_back(0);
+    ++order_end_[rank_[k]];
+  }
+  std::exclusive_scan(order_end_.begin(), order_end_.end(), order_end_.begin(), 0U);
+  order_.resize(count_);
+  for (std::size_t k = 0; k < count_; ++k) order_[order_end_[rank_[k]]++] = static_cast<std::uint32_t>(k);
 }
 
 void PairContacts::warm_start(Moving* bodies) const {
@@ -104,30 +133,29 @@ void PairContacts::warm_start(Moving* bodies) const {
   }
 }
 
-void PairContacts::sweep(Moving* bodies, const Softness& softness) {
+void PairContacts::sweep(Moving* bodies) {
   if (rule_.friction)
-    sweep_all<true>(bodies, softness);
+    sweep_all<true>(bodies);
   else
-    sweep_all<false>(bodies, softness);
+    sweep_all<false>(bodies);
 }
 
 template <bool Friction>
-void PairContacts::sweep_all(Moving* bodies, const Softness& softness) {
-  for (std::size_t k = 0; k < count_; ++k) {
+void PairContacts::sweep_all(Moving* bodies) {
+  for (const std::uint32_t k : order_) {
     PairRow& row = rows_[k];
     Moving &a = bodies[row.a], &b = bodies[row.b];
-    const Change change = correct<Friction>(row, slip<Friction>(row, a, b), softness);
+    const Change change = correct<Friction>(row, slip<Friction>(row, a, b));
     apply(row, a, b, change.impulse);
     if constexpr (Friction) apply_turn(row, a, b, change.side);
   }
 }
 
-void PairContacts::relax_from(const Bodies& bodies) {
+void PairContacts::relax(const Bodies& bodies) {
   for (std::size_t k = 0; k < count_; ++k) {
     PairRow& row = rows_[k];
-    const bool met = row.approach > 0, bounces = rule_.restitution && rebound_[k] > 0;
-    row.approach = relaxed_approach(row, bounces ? rebound_[k] : 0);
-    if (row.push > 0 && (met || bounces)) row.normal = normal_between(bodies, row.a, row.b);
+    impulse::relax(row);
+    if (row.push > 0 && row.gap > 0) row.normal = normal_between(bodies, row.a, row.b);
   }
 }
 

@@ -8,7 +8,6 @@
 
 namespace moraine::impulse {
 
-/// One cache line.
 struct PairRow : ContactRow {
   Place a = 0, b = 0;  ///< a < b
   float inverse_mass_a = 0, inverse_mass_b = 0;
@@ -30,24 +29,28 @@ class PairContacts {
   /// Rows of all pairs that may meet in this step, from the velocities at its start. Cost: linear in listed pairs.
   void gather(const Bodies& bodies);
   void warm_start(Moving* bodies) const;
-  void sweep(Moving* bodies, const Softness& softness);
+  void sweep(Moving* bodies);
   /// Bodies have moved by their velocities over the step: what remains is to part with the right speed. Those that met
   /// in the step do so along the line on which they touch: that keeps angular momentum.
-  void relax_from(const Bodies& bodies);
+  void relax(const Bodies& bodies);
 
   std::span<const PairRow> rows() const { return {rows_.data(), count_}; }
   void restore(std::vector<PairRow> rows);
 
  private:
   template <bool Friction>
-  void sweep_all(Moving* bodies, const Softness& softness);
-  void take_up(PairRow& row);
+  void sweep_all(Moving* bodies);
+  void find_close(const Bodies& bodies);
+  bool fill(const Bodies& bodies, std::size_t pair, PairRow& row) const;
+  void take_up_impulses();
+  void put_in_order();
 
   const StepRule& rule_;
   native::VerletList pairs_;
   std::vector<PairRow> rows_, before_;  ///< ascending (a, b); the first count_ and count_before_ are in use
-  std::size_t count_ = 0, count_before_ = 0, passed_ = 0;
-  std::vector<float> rebound_;  ///< by row: speed after an impact
+  std::size_t count_ = 0, count_before_ = 0;
+  std::vector<std::uint32_t> close_;                     ///< pairs within reach
+  std::vector<std::uint32_t> rank_, order_, order_end_;  ///< in which rows are solved
 };
 
 }  // namespace moraine::impulse

@@ -47,6 +47,7 @@ void ImpulseWorld::save(std::vector<std::byte>& out) const {
   put_all(w, bodies_.weight);
   put_all(w, bodies_.attitude);
   put_all(w, bodies_.ghost);
+  put_all(w, bodies_.whole);
   put_all(w, pairs_.rows());
   put_all(w, walls_.rows());
   put_all(w, bonds_.entries());
@@ -64,6 +65,7 @@ void ImpulseWorld::load(std::span<const std::byte> in) {
   get_all(r, bodies_.weight);
   get_all(r, bodies_.attitude);
   get_all(r, bodies_.ghost);
+  get_all(r, bodies_.whole);
   pairs_.restore(get_all<PairRow>(r));
   walls_.restore(get_all<WallRow>(r));
   bonds_.clear();

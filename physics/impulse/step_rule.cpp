@@ -7,14 +7,15 @@ namespace {
 constexpr double contact_damping = 10;      ///< ratio; Box2D's: overlaps are removed without springing back
 constexpr double least_stiffness = 20;      ///< h w (2 z + h w): contacts stay firm however slowly overlaps are removed
 constexpr float gap_slack = 0.005F;         ///< [diameters] neighbours may push bodies this far together within a step
+constexpr float fast_impact = 4;            ///< faster ones are found when they overlap already [sqrt(g d)]
+constexpr float largest_way = 0.15F;        ///< of an impact within a step that is looked ahead for [diameters]
 constexpr float bounce_threshold = 0.064F;  ///< slower impacts do not bounce [sqrt(g d)]; 0.2 m/s for 1 m under 1 g
 
-/// With overlap_recovery b = h w / (2 z + h w), the share of an overlap that a step removes, follows
-/// h w (2 z + h w) = 4 z^2 b / (1 - b)^2 (Catto 2011).
-Softness softness(double recovery) {
+/// With overlap_recovery b = h w / (2 z + h w), the share of an overlap that a step removes (w: natural frequency, z:
+/// damping ratio of the contact), h w (2 z + h w) = 4 z^2 b / (1 - b)^2 (Catto 2011).
+double impulse_scale(double recovery) {
   const double a = 4 * contact_damping * contact_damping * recovery / ((1 - recovery) * (1 - recovery));
-  const double impulse_scale = 1 / (1 + std::max(a, least_stiffness));
-  return {static_cast<float>(1 - impulse_scale), static_cast<float>(impulse_scale)};
+  return 1 / (1 + std::max(a, least_stiffness));
 }
 
 }  // namespace
@@ -24,12 +25,14 @@ StepRule::StepRule(const WorldSettings& settings, const Units& units)
       fall(narrow(settings.substep / units.velocity() * settings.gravity)),
       sweeps(settings.iterations),
       friction(settings.features.friction),
-      restitution(settings.features.restitution),
-      softness(impulse::softness(settings.overlap_recovery)),
       materials_(settings.scene->materials.materials.size()),
       slack_(gap_slack + h * fall.norm()),
-      recovery_(static_cast<float>(settings.overlap_recovery)),
-      threshold_(settings.gravity.isZero() ? 0 : bounce_threshold) {
+      reach_(slack_ + std::min(fast_impact * h, largest_way)),
+      threshold_(settings.gravity.isZero() ? 0 : bounce_threshold),
+      mass_scale_(static_cast<float>(1 - impulse_scale(settings.overlap_recovery))),
+      impulse_scale_(1 - mass_scale_),
+      closing_(1 / h),
+      opening_(static_cast<float>(settings.overlap_recovery) / h) {
   for (const PairLaw& law : settings.scene->materials.pairs)
     constants_.push_back({static_cast<float>(law.friction), static_cast<float>(law.restitution)});
 }

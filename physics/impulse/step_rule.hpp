@@ -20,26 +20,35 @@ class StepRule {
   float h = 0;
   Vec fall = Vec::Zero();  ///< velocity that gravity adds in a step
   int sweeps = 1;
-  bool friction = false, restitution = false;
-  Softness softness;
+  bool friction = false;
 
   const PairConstants& of(std::uint32_t a, std::uint32_t b) const { return constants_[a * materials_ + b]; }
-  /// Whether surfaces that close at this speed may meet in this step.
-  bool near(float gap, float closing) const { return gap < slack_ + h * std::max(closing, 0.0F); }
-  /// The `approach` of a row with this gap.
-  float approach(float gap) const { return gap > 0 ? gap / h : std::max(gap * recovery_ / h, -push_limit); }
-  /// Speed after an impact; 0 if it is too slow to bounce.
-  float rebound(float restitution_, float closing) const { return closing > threshold_ ? restitution_ * closing : 0; }
-
   /// Contacts are looked for up to this gap.
-  static constexpr float reach = 0.1F;
+  float reach() const { return reach_; }
+  /// Completes a row that has its mass, for surfaces `gap` apart that close at this speed. False if they do not meet in
+  /// this step. Those that will bounce meet when they overlap: then the rebound itself takes the overlap back, and one
+  /// impulse at one place keeps energy and angular momentum. But shared bodies, of which other worlds hold copies, must
+  /// meet in all of them in the same step.
+  bool prepare(ContactRow& row, float gap, float closing, const PairConstants& law, bool shared) const {
+    row.gap = gap;
+    row.friction = law.friction;
+    row.rebound = closing > threshold_ ? law.restitution * closing : 0;
+    const bool bounces = row.rebound > 0 && !shared, hard = bounces || gap > 0;
+    row.firmness = hard ? row.mass : mass_scale_ * row.mass;
+    row.yielding = hard ? 0 : impulse_scale_;
+    const float opening = std::min(opening_ * positive(-gap), push_limit);
+    row.approach = bounces ? -row.rebound : closing_ * positive(gap) - opening;
+    return gap < (bounces ? 0 : std::min(slack_ + h * positive(closing), reach_));
+  }
 
  private:
   static constexpr float push_limit = 1;
 
   std::size_t materials_ = 0;
   std::vector<PairConstants> constants_;
-  float slack_ = 0, recovery_ = 0, threshold_ = 0;
+  float slack_ = 0, reach_ = 0, threshold_ = 0;
+  float mass_scale_ = 1, impulse_scale_ = 0;
+  float closing_ = 0, opening_ = 0;  ///< speeds per gap and per overlap
 };
 
 }  // namespace moraine::impulse

@@ -15,7 +15,10 @@ inline Vec narrow(const Vec3& v) {
 }
 inline Vec3 wide(const Vec& v) { return {v.x(), v.y(), v.z()}; }
 /// The same with a zero in the last lane.
-inline Vec three(const Vec& v) { return {v.x(), v.y(), v.z(), 0}; }
+inline Vec three(const Vec& v) { return v.cwiseProduct(Vec(1, 1, 1, 0)); }
+// Without branches, where the outcome cannot be guessed.
+inline float larger(float x, float y) { return Vec::Constant(x).cwiseMax(Vec::Constant(y))[0]; }
+inline float positive(float x) { return larger(x, 0); }
 
 /// A typical element has diameter 1 and mass 1, and falls its own diameter in about one unit of time. Positions are
 /// relative to the world's origin: float32 keeps 1e-6 diameters wherever the world lies.

@@ -42,7 +42,7 @@ void WallContacts::gather(const Bodies& bodies) {
 void WallContacts::meet(const Bodies& bodies, Group group) {
   const auto [place, wall, surface] = group.front();
   const native::Ball ball{units_.position(bodies.position[place]),
-                          static_cast<double>(bodies.radius(place) + StepRule::reach) * units_.length};
+                          static_cast<double>(bodies.radius(place) + rule_.reach()) * units_.length};
   while (passed_ < before_.size() && earlier_place(before_[passed_], group.front())) ++passed_;
   native::find_touches(walls_[wall], ball, group, touches_);
   for (const native::Nearest& touch : touches_) {
@@ -59,15 +59,11 @@ void WallContacts::add(const Bodies& bodies, WallRow row, const native::Nearest&
   row.normal = narrow(touch.normal);
   row.velocity = narrow(wall.velocity(touch.point) / units_.velocity());
   const float closing = row.normal.dot(row.velocity - bodies.moving[row.ball].velocity);
-  if (!rule_.near(gap, closing)) return;
   const Weight& weight = bodies.weight[row.ball];
   const PairConstants& law = rule_.of(weight.material, wall.material());
   row.inverse_mass = weight.inverse_mass;
   row.mass = 1 / weight.inverse_mass;
-  row.friction = law.friction;
-  row.gap = gap;
-  row.approach = rule_.approach(gap);
-  row.rebound = rule_.rebound(law.restitution, closing);
+  if (!rule_.prepare(row, gap, closing, law, bodies.shared(row.ball))) return;
   take_up(row);
   rows_.push_back(row);
 }
@@ -78,7 +74,7 @@ void WallContacts::take_up(WallRow& row) const {
   for (std::size_t k = passed_; k < before_.size() && !earlier_place(row, before_[k]); ++k) {
     const WallRow& old = before_[k];
     const float cosine = old.normal.dot(row.normal);
-    if (cosine <= best) continue;
+    if (cosine <= best || old.rebound > 0) continue;
     best = cosine;
     row.push = old.push;
     row.side = old.side - old.side.dot(row.normal) * row.normal;
@@ -89,30 +85,26 @@ void WallContacts::warm_start(Moving* bodies) const {
   for (const WallRow& row : rows_) apply<true>(row, bodies[row.ball], row.push * row.normal + row.side, row.side);
 }
 
-void WallContacts::sweep(Moving* bodies, const Softness& softness) {
+void WallContacts::sweep(Moving* bodies) {
   if (rule_.friction)
-    sweep_all<true>(bodies, softness);
+    sweep_all<true>(bodies);
   else
-    sweep_all<false>(bodies, softness);
+    sweep_all<false>(bodies);
 }
 
 template <bool Friction>
-void WallContacts::sweep_all(Moving* bodies, const Softness& softness) {
+void WallContacts::sweep_all(Moving* bodies) {
   for (WallRow& row : rows_) {
     Moving& ball = bodies[row.ball];
     Vec slip = ball.velocity - row.velocity;
     if constexpr (Friction) slip -= ball.turning.cross3(row.normal);
-    const Change change = correct<Friction>(row, slip, softness);
+    const Change change = correct<Friction>(row, slip);
     apply<Friction>(row, ball, change.impulse, change.side);
   }
 }
 
-void WallContacts::relax_from(const Moving* bodies) {
-  for (WallRow& row : rows_) {
-    const float parting = row.normal.dot(bodies[row.ball].velocity - row.velocity);
-    row.gap += rule_.h * parting;
-    row.approach = relaxed_approach(row, row.rebound);
-  }
+void WallContacts::relax() {
+  for (WallRow& row : rows_) impulse::relax(row);
 }
 
 /// Impulses act on a ball at its radius.

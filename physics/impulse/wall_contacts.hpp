@@ -2,8 +2,6 @@
 // Contacts of balls with boundaries.
 #pragma once
 
-#include <array>
-
 #include "physics/impulse/bodies.hpp"
 #include "physics/impulse/step_rule.hpp"
 #include "physics/native/walls.hpp"
@@ -16,9 +14,7 @@ struct WallRow : ContactRow {
   Place ball = 0;
   std::uint32_t wall = 0;
   float inverse_mass = 0;
-  float rebound = 0;              ///< speed after an impact
-  float gap = 0;                  ///< at the end of the step
-  std::array<float, 3> unused{};  ///< up to the alignment, so that saved worlds hold no undefined bytes
+  float unused = 0;  ///< up to the alignment, so that saved worlds hold no undefined bytes
 };
 
 class WallContacts {
@@ -37,8 +33,8 @@ class WallContacts {
   // As PairContacts.
   void gather(const Bodies& bodies);
   void warm_start(Moving* bodies) const;
-  void sweep(Moving* bodies, const Softness& softness);
-  void relax_from(const Moving* bodies);
+  void sweep(Moving* bodies);
+  void relax();
 
   /// Ascending by ball, then by wall.
   std::span<const WallRow> rows() const { return rows_; }
@@ -51,7 +47,7 @@ class WallContacts {
  private:
   using Group = std::span<const native::WallCandidate>;
   template <bool Friction>
-  void sweep_all(Moving* bodies, const Softness& softness);
+  void sweep_all(Moving* bodies);
   void meet(const Bodies& bodies, Group group);
   void add(const Bodies& bodies, WallRow row, const native::Nearest& touch);
   void take_up(WallRow& row) const;

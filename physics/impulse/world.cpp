@@ -64,11 +64,11 @@ void ImpulseWorld::step(double t) {
   gather();
   for (Moving& m : bodies_.moving) m.velocity += rule_.fall;
   warm_start();
-  for (int k = 0; k < rule_.sweeps; ++k) sweep(rule_.softness);
+  for (int k = 0; k < rule_.sweeps; ++k) sweep();
   bodies_.advance(rule_.h, turns_);
-  pairs_.relax_from(bodies_);
-  walls_.relax_from(bodies_.moving.data());
-  sweep({});
+  pairs_.relax(bodies_);
+  walls_.relax();
+  sweep();
   bonds_.keep_impulses();
   walls_.sum_impulse(bodies_);
 }
@@ -94,15 +94,15 @@ void ImpulseWorld::warm_start() {
   walls_.warm_start(bodies_.moving.data());
 }
 
-void ImpulseWorld::sweep(const Softness& softness) {
+void ImpulseWorld::sweep() {
   bonds_.sweep(bodies_.moving.data());
-  pairs_.sweep(bodies_.moving.data(), softness);
-  walls_.sweep(bodies_.moving.data(), softness);
+  pairs_.sweep(bodies_.moving.data());
+  walls_.sweep(bodies_.moving.data());
 }
 
 /// Lists hold every pair that may come within the reach of contacts.
 bool ImpulseWorld::moved_too_far() const {
-  const float limit = 0.499F * (skin_ - StepRule::reach);
+  const float limit = 0.499F * (skin_ - rule_.reach());
   bool far = walls_.walls().moved() >= static_cast<double>(limit) * units_.length;
   for (Place p = 0; p < bodies_.size(); ++p)
     far |= (bodies_.position[p] - listed_at_[p]).squaredNorm() >= limit * limit;
@@ -113,7 +113,7 @@ float ImpulseWorld::suitable_skin() const {
   float fastest2 = 0;
   for (const Moving& m : bodies_.moving) fastest2 = std::max(fastest2, m.velocity.squaredNorm());
   const float way = steps_per_list * rule_.h * std::sqrt(fastest2);
-  return std::clamp(StepRule::reach + 2 * way, least_skin, largest_skin);
+  return std::clamp(rule_.reach() + 2 * way, least_skin, largest_skin);
 }
 
 void ImpulseWorld::list_anew() {

@@ -48,7 +48,7 @@ class ImpulseWorld final : public World {
   float suitable_skin() const;
   void gather();
   void warm_start();
-  void sweep(const Softness& softness);
+  void sweep();
   Contact contact(const PairRow& row) const;
   Contact contact(const WallRow& row) const;
 

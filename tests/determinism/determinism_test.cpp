@@ -24,6 +24,10 @@ const std::vector<Case> cases = {
      "crust_small",
      {set("count", 800), set("radius", "3000"), set("dt", 1), set("steps", 40), set("run.sub_models", 6)}},
     {"dam", "dam", {set("count", 1000), set("time.duration", 0.8), set("run.sub_models", 5), set("run.split", "rcb")}},
+    {"dam_impulse",
+     "dam",
+     {set("count", 1000), set("time.duration", 0.8), set("run.sub_models", 5), set("run.split", "rcb"),
+      set("run.engine", "impulse")}},
     {"mixed_shapes", "mixed_shapes", {set("count", 120), set("time.duration", 1.5)}},
     {"bonded_beam", "bonded_beam", {set("time.duration", 0.2)}},
 };

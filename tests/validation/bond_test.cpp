@@ -12,6 +12,7 @@ namespace moraine {
 namespace {
 
 using test::example;
+using test::impulse_engines;
 using test::ModelRun;
 using test::set;
 using test::weightless;
@@ -34,8 +35,9 @@ struct Oscillation {
 };
 
 /// From zero crossings upwards and the greatest stretches between them.
-Oscillation observe(const std::string& bond, double dt, int parts, int periods) {
-  ModelRun run(scene_of(pair(bond), {set("dt", dt), set("run.sub_models", parts)}));
+Oscillation observe(const std::string& bond, double dt, std::vector<Override> setup, int periods) {
+  setup.push_back(set("dt", dt));
+  ModelRun run(scene_of(pair(bond), setup));
   std::vector<double> crossings, peaks;
   double before = stretch(run), peak = 0;
   while (static_cast<int>(crossings.size()) < periods + 1 && run.time() < 30) {
@@ -54,12 +56,17 @@ Oscillation observe(const std::string& bond, double dt, int parts, int periods) 
           ((run.position(1) + run.position(2)) / 2 - Vec3(0.5, 0, 0)).norm()};
 }
 
-class BondedPair : public testing::TestWithParam<int> {};
+class BondedPair : public testing::TestWithParam<std::tuple<int, const char*>> {
+ protected:
+  static std::vector<Override> setup() {
+    return {set("run.sub_models", std::get<0>(GetParam())), set("run.engine", std::get<1>(GetParam()))};
+  }
+};
 
 TEST_P(BondedPair, HasItsPeriodAndKeepsItsEnergy) {
   const double period = 2 * std::numbers::pi / std::sqrt(2000.0);
   for (const double dt : {period / 100, period / 20}) {
-    const Oscillation o = observe("", dt, GetParam(), 20);
+    const Oscillation o = observe("", dt, setup(), 20);
     EXPECT_NEAR(o.period, period, (dt < period / 50 ? 0.01 : 0.05) * period);
     EXPECT_NEAR(o.ratio, 1, 0.005);
     EXPECT_LT(o.drift, 1e-5);
@@ -68,13 +75,13 @@ TEST_P(BondedPair, HasItsPeriodAndKeepsItsEnergy) {
 
 TEST_P(BondedPair, IsDampedAsTheDashpotSays) {
   const double damped = 2 * std::numbers::pi / 44.6766;
-  const Oscillation o = observe(", damping: 2", damped / 100, GetParam(), 8);
+  const Oscillation o = observe(", damping: 2", damped / 100, setup(), 8);
   EXPECT_NEAR(o.period, damped, 0.01 * damped);
   EXPECT_NEAR(o.ratio, 0.75482, 0.01);
 }
 
 TEST_P(BondedPair, DoesNotOvershootWhenCriticallyDamped) {
-  ModelRun run(scene_of(pair(", damping: 44.721"), {set("run.sub_models", GetParam())}));
+  ModelRun run(scene_of(pair(", damping: 44.721"), setup()));
   double least = 0;
   for (int k = 0; k < 1000; ++k) {
     run.steps(1);
@@ -91,7 +98,7 @@ TEST_P(BondedPair, BreaksAtItsLengthAndStepAndLeavesNoForce) {
       "velocity: [0.01, 0, 0], mass: 1e7}]}\ntime: {dt: 1e-2, steps: 1}\nrun: {split: slabs}\n"
       "bonds: [{a: 1, b: 2, stiffness: k, break_length: 1.05}]\n" +
       weightless;
-  ModelRun run(scene_of(text, {set("run.sub_models", GetParam())}));
+  ModelRun run(scene_of(text, setup()));
   run.steps(497);
   EXPECT_EQ(run.model().statistics().bonds_broken, 0U);
   while (run.model().statistics().bonds_broken == 0 && run.time() < 5.1) run.steps(1);
@@ -103,13 +110,15 @@ TEST_P(BondedPair, BreaksAtItsLengthAndStepAndLeavesNoForce) {
 }
 
 TEST_P(BondedPair, HoldsJustBelowItsLength) {
-  ModelRun run(scene_of(pair(", break_length: 1.0101"), {set("run.sub_models", GetParam()), set("dt", 1e-3)}));
+  ModelRun run(scene_of(pair(", break_length: 1.0101"), setup()));
   run.steps(3000);
   EXPECT_EQ(run.model().statistics().bonds_broken, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Parts, BondedPair, testing::Values(1, 2),
-                         [](const auto& test) { return fmt::format("in{}", test.param); });
+INSTANTIATE_TEST_SUITE_P(Parts, BondedPair, testing::Combine(testing::Values(1, 2), testing::ValuesIn(impulse_engines)),
+                         [](const auto& test) {
+                           return fmt::format("in{}_{}", std::get<0>(test.param), std::get<1>(test.param));
+                         });
 
 /// Mean height of the spheres in the middle third of the beam.
 double sag(const std::vector<ElementState>& states) {

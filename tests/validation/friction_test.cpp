@@ -12,6 +12,7 @@ namespace moraine {
 namespace {
 
 using test::floor_at_zero;
+using test::impulse_engines;
 using test::ModelRun;
 using test::set;
 using test::spheres;
@@ -74,10 +75,19 @@ TEST_P(Incline, BlockSticksAboveTheThresholdAndSlidesBelow) {
   EXPECT_LT((rest.position(1) - from).norm() / 1.0, 1e-4);
 }
 
-TEST_P(Incline, SphereRollsIfFrictionIsHigh) {
+INSTANTIATE_TEST_SUITE_P(Heading, Incline, testing::Values(0.0, 30.0, 45.0),
+                         [](const auto& test) { return fmt::format("{:.0f}deg", test.param); });
+
+class SphereOnIncline : public testing::TestWithParam<std::tuple<double, const char*>> {
+ protected:
+  double heading() const { return std::get<0>(GetParam()) * std::numbers::pi / 180; }
+  Override engine() const { return set("run.engine", std::get<1>(GetParam())); }
+};
+
+TEST_P(SphereOnIncline, RollsIfFrictionIsHigh) {
   for (const double mu : {0.17, 0.5}) {  // 0.16496 is enough
     ModelRun run(scene_of(spheres("{id: 1, at: [0, 0, 0.1]}", fmt::format("friction: {}", mu), floor_at_zero),
-                          {on_slope(heading())}));
+                          {on_slope(heading()), engine()}));
     const double a = acceleration(run, 1);
     RecordProperty(fmt::format("acceleration_{:.0f}", 100 * mu), fmt::format("{:.5f}", a));
     EXPECT_NEAR(a, 5.0 / 7 * g * std::sin(slope), 0.002 * 3.5036);
@@ -85,8 +95,9 @@ TEST_P(Incline, SphereRollsIfFrictionIsHigh) {
   }
 }
 
-TEST_P(Incline, SphereSlidesIfFrictionIsLow) {
-  ModelRun run(scene_of(spheres("{id: 1, at: [0, 0, 0.1]}", "friction: 0.1", floor_at_zero), {on_slope(heading())}));
+TEST_P(SphereOnIncline, SlidesIfFrictionIsLow) {
+  ModelRun run(
+      scene_of(spheres("{id: 1, at: [0, 0, 0.1]}", "friction: 0.1", floor_at_zero), {on_slope(heading()), engine()}));
   const double a = acceleration(run, 1);
   const double spun = 0.1 * run.spin(1).norm() / run.time();
   RecordProperty("acceleration", fmt::format("{:.5f} {:.5f}", a, spun));
@@ -94,15 +105,19 @@ TEST_P(Incline, SphereSlidesIfFrictionIsLow) {
   EXPECT_NEAR(spun, 2.5 * 0.1 * g * std::cos(slope), 0.002 * 2.1239);
 }
 
-INSTANTIATE_TEST_SUITE_P(Heading, Incline, testing::Values(0.0, 30.0, 45.0),
-                         [](const auto& test) { return fmt::format("{:.0f}deg", test.param); });
+INSTANTIATE_TEST_SUITE_P(Heading, SphereOnIncline,
+                         testing::Combine(testing::Values(0.0, 30.0, 45.0), testing::ValuesIn(impulse_engines)),
+                         [](const auto& test) {
+                           return fmt::format("{:.0f}deg_{}", std::get<0>(test.param), std::get<1>(test.param));
+                         });
 
-class SlidingToRolling : public testing::TestWithParam<double> {};
+class SlidingToRolling : public testing::TestWithParam<std::tuple<double, const char*>> {};
 
 TEST_P(SlidingToRolling, EndsWithFiveSevenths) {
-  const double mu = GetParam();
-  ModelRun run(scene_of(
-      spheres("{id: 1, at: [0, 0, 0.1], velocity: [1, 0, 0]}", fmt::format("friction: {}", mu), floor_at_zero)));
+  const auto& [mu, engine] = GetParam();
+  ModelRun run(
+      scene_of(spheres("{id: 1, at: [0, 0, 0.1], velocity: [1, 0, 0]}", fmt::format("friction: {}", mu), floor_at_zero),
+               {set("run.engine", engine)}));
   const double expected_time = 2 / (7 * mu * g);
   while (run.time() < 2 * expected_time && run.velocity(1).x() - 0.1 * run.spin(1).y() > 1e-3) run.steps(1);
   EXPECT_NEAR(run.time(), expected_time, 1.5e-3);  // steps are 1e-3 long
@@ -111,8 +126,11 @@ TEST_P(SlidingToRolling, EndsWithFiveSevenths) {
   EXPECT_NEAR(run.velocity(1).x(), 5.0 / 7, 1e-4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Friction, SlidingToRolling, testing::Values(0.1, 0.3, 0.5),
-                         [](const auto& test) { return fmt::format("mu{:.0f}", 10 * test.param); });
+INSTANTIATE_TEST_SUITE_P(Friction, SlidingToRolling,
+                         testing::Combine(testing::Values(0.1, 0.3, 0.5), testing::ValuesIn(impulse_engines)),
+                         [](const auto& test) {
+                           return fmt::format("mu{:.0f}_{}", 10 * std::get<0>(test.param), std::get<1>(test.param));
+                         });
 
 }  // namespace
 }  // namespace moraine

@@ -10,6 +10,7 @@
 namespace moraine {
 namespace {
 
+using test::impulse_engines;
 using test::ModelRun;
 using test::set;
 using test::spheres;
@@ -21,13 +22,13 @@ struct HeadOn {
 
 void PrintTo(const HeadOn& c, std::ostream* out) { *out << c.m1 << " kg on " << c.m2 << " kg, e " << c.e; }
 
-class HeadOnImpact : public testing::TestWithParam<std::tuple<HeadOn, int>> {};
+class HeadOnImpact : public testing::TestWithParam<std::tuple<HeadOn, int, const char*>> {};
 
 /// v1' = v_c - e m2/(m1 + m2) (v1 - v2) and v2' alike, at 20 phases of the time step. Momentum is kept to 1e-6, to
 /// 1.5e-6 where one is a thousand times heavier. In two sub-models one sphere meets a ghost of half the mass: a
 /// restitution of 1 becomes 0.58 for equal masses, one of 0.5 is up to 0.13 off.
 TEST_P(HeadOnImpact, KeepsMomentumAndRestitution) {
-  const auto& [c, parts] = GetParam();
+  const auto& [c, parts, engine] = GetParam();
   const double total = c.m1 + c.m2, closing = c.v1 - c.v2;
   const double centre = (c.m1 * c.v1 + c.m2 * c.v2) / total;
   double worst_momentum = 0, worst_restitution = 0;
@@ -37,7 +38,7 @@ TEST_P(HeadOnImpact, KeepsMomentumAndRestitution) {
                                               "{{id: 2, at: [0.1, 0, 0], velocity: [{}, 0, 0], mass: {}}}",
                                               start, c.v1, c.m1, c.v2, c.m2),
                                   fmt::format("restitution: {}", c.e), weightless + "run: {split: slabs}\n"),
-                          {set("run.sub_models", parts)}));
+                          {set("run.sub_models", parts), set("run.engine", engine)}));
     run.steps(std::lround(0.2 / closing / 1e-3));
     const double v1 = run.velocity(1).x(), v2 = run.velocity(2).x();
     const double scale = c.m1 * std::abs(c.v1) + c.m2 * std::abs(c.v2);
@@ -55,11 +56,13 @@ const std::vector<HeadOn> head_on = {
     {1, 1, 1, 0, 1}, {1, 1, 1, 0, 0.5}, {2, 1, 1, -1, 0.5}, {1, 1000, 1, 0, 1}, {1, 1e6, 10, 0, 0.5},
 };
 
-INSTANTIATE_TEST_SUITE_P(Table, HeadOnImpact, testing::Combine(testing::ValuesIn(head_on), testing::Values(1, 2)),
+INSTANTIATE_TEST_SUITE_P(Table, HeadOnImpact,
+                         testing::Combine(testing::ValuesIn(head_on), testing::Values(1, 2),
+                                          testing::ValuesIn(impulse_engines)),
                          [](const auto& test) {
                            const HeadOn& c = std::get<0>(test.param);
-                           return fmt::format("m{:.0f}_m{:.0f}_v{:.0f}_e{:.0f}_in{}", c.m1, c.m2, c.v1, 100 * c.e,
-                                              std::get<1>(test.param));
+                           return fmt::format("m{:.0f}_m{:.0f}_v{:.0f}_e{:.0f}_in{}_{}", c.m1, c.m2, c.v1, 100 * c.e,
+                                              std::get<1>(test.param), std::get<2>(test.param));
                          });
 
 struct Target {
@@ -81,26 +84,26 @@ struct Rebound {
 };
 
 /// A sphere of radius 0.1 m comes straight down at 1 m/s and is `gap` away; after the impact it flies on for 0.2 s.
-Rebound rebound(const Target& target, double e, double dt, double gap) {
+Rebound rebound(const char* engine, const Target& target, double e, double dt, double gap) {
   const bool pair = target.boundary.empty();
   const std::string other =
       pair ? fmt::format(", {{id: 2, at: [0.03, 0.02, {}], velocity: [0, 0, 1]}}", -0.1 - gap) : "";
   ModelRun run(scene_of(spheres(fmt::format("{{id: 1, at: [0.03, 0.02, {}], velocity: [0, 0, -1]}}", 0.1 + gap) + other,
                                 fmt::format("restitution: {}", e),
                                 weightless + (pair ? "" : fmt::format("boundaries: [{}]\n", target.boundary))),
-                        {set("dt", dt)}));
+                        {set("dt", dt), set("run.engine", engine)}));
   run.steps(std::lround((gap + 0.2) / dt));
   return {run.velocity(1).z(), run.velocity(1).head<2>().norm()};
 }
 
-class Restitution : public testing::TestWithParam<std::tuple<Target, double, double>> {};
+class Restitution : public testing::TestWithParam<std::tuple<Target, double, double, const char*>> {};
 
 /// v' = -e v, whatever the step and whatever is hit, at 7 phases of the step.
 TEST_P(Restitution, IsReached) {
-  const auto& [target, e, dt] = GetParam();
+  const auto& [target, e, dt, engine] = GetParam();
   Rebound worst;
   for (int phase = 0; phase < 7; ++phase) {
-    const Rebound r = rebound(target, e, dt, 0.05 + dt * phase / 7);
+    const Rebound r = rebound(engine, target, e, dt, 0.05 + dt * phase / 7);
     worst.along = std::max(worst.along, std::abs(r.along - e));
     worst.across = std::max(worst.across, r.across);
   }
@@ -111,14 +114,18 @@ TEST_P(Restitution, IsReached) {
 
 INSTANTIATE_TEST_SUITE_P(Table, Restitution,
                          testing::Combine(testing::ValuesIn(targets), testing::Values(0.0, 0.5, 1.0),
-                                          testing::Values(1.0 / 60, 1.0 / 240, 1e-3, 1e-4)),
+                                          testing::Values(1.0 / 60, 1.0 / 240, 1e-3, 1e-4),
+                                          testing::ValuesIn(impulse_engines)),
                          [](const auto& test) {
-                           return fmt::format("{}_e{:.0f}_dt{:.0f}us", std::get<0>(test.param).name,
-                                              100 * std::get<1>(test.param), 1e6 * std::get<2>(test.param));
+                           return fmt::format("{}_e{:.0f}_dt{:.0f}us_{}", std::get<0>(test.param).name,
+                                              100 * std::get<1>(test.param), 1e6 * std::get<2>(test.param),
+                                              std::get<3>(test.param));
                          });
 
+class ElasticGas : public testing::TestWithParam<const char*> {};
+
 /// A gas of elastic spheres in a box keeps its energy over thousands of impacts. Measured: 4e-4.
-TEST(ElasticGas, KeepsItsEnergy) {
+TEST_P(ElasticGas, KeepsItsEnergy) {
   ModelRun run(scene_of(R"(gravity: [0, 0, 0]
 materials: {ball: {density: 1, friction: 0, restitution: 1}}
 elements:
@@ -127,12 +134,16 @@ elements:
 boundaries: [{box: [[0, 0, 0], [10, 10, 10]], material: ball}]
 time: {dt: 1 / 240, duration: 15}
 run: {sub_models: 1}
-)"));
+)",
+                        {set("run.engine", GetParam())}));
   const double before = run.kinetic_energy();
   run.go();
   RecordProperty("energy", fmt::format("{:.6f}", run.kinetic_energy() / before));
   EXPECT_NEAR(run.kinetic_energy(), before, 2e-3 * before);
 }
+
+INSTANTIATE_TEST_SUITE_P(Engines, ElasticGas, testing::ValuesIn(impulse_engines),
+                         [](const auto& test) { return test.param; });
 
 struct Oblique {
   double friction, tangential, spin;  ///< expected v_t' and |w R|
@@ -140,7 +151,7 @@ struct Oblique {
 
 void PrintTo(const Oblique& c, std::ostream* out) { *out << "mu " << c.friction; }
 
-class ObliqueImpact : public testing::TestWithParam<std::tuple<Oblique, int>> {};
+class ObliqueImpact : public testing::TestWithParam<std::tuple<Oblique, int, const char*>> {};
 
 struct Budget {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero(), angular_far = Vec3::Zero();
@@ -163,14 +174,14 @@ Budget budget(const ModelRun& run) {
 /// Each ball comes with 1 m/s along and 0.9 m/s across the line of centres; e = 0.8. Met just as they touch, the whole
 /// model is right to 2e-4. In two sub-models they part with 0.54 m/s instead of 0.8, and friction is off by 10 %.
 TEST_P(ObliqueImpact, SlidesOrSticksAndKeepsMomenta) {
-  const auto& [c, parts] = GetParam();
+  const auto& [c, parts, engine] = GetParam();
   const double time = 0.02 - 1e-5;  // until they touch, just inside a step
   ModelRun run(
       scene_of(spheres(fmt::format("{{id: 1, at: [{0}, {1}, 0], velocity: [1, 0.9, 0]}}, "
                                    "{{id: 2, at: [{2}, {3}, 0], velocity: [-1, -0.9, 0]}}",
                                    -0.1 - time, -0.9 * time, 0.1 + time, 0.9 * time),
                        fmt::format("restitution: 0.8, friction: {}", c.friction), weightless + "run: {split: slabs}\n"),
-               {set("run.sub_models", parts)}));
+               {set("run.sub_models", parts), set("run.engine", engine)}));
   const Budget before = budget(run);
   run.steps(100);
   const Budget after = budget(run);
@@ -185,10 +196,12 @@ TEST_P(ObliqueImpact, SlidesOrSticksAndKeepsMomenta) {
 
 const std::vector<Oblique> oblique = {{0, 0.9, 0}, {0.05, 0.81, 0.225}, {0.2, 0.642857, 0.642857}};
 
-INSTANTIATE_TEST_SUITE_P(Table, ObliqueImpact, testing::Combine(testing::ValuesIn(oblique), testing::Values(1, 2)),
+INSTANTIATE_TEST_SUITE_P(Table, ObliqueImpact,
+                         testing::Combine(testing::ValuesIn(oblique), testing::Values(1, 2),
+                                          testing::ValuesIn(impulse_engines)),
                          [](const auto& test) {
-                           return fmt::format("mu{:.0f}_in{}", 100 * std::get<0>(test.param).friction,
-                                              std::get<1>(test.param));
+                           return fmt::format("mu{:.0f}_in{}_{}", 100 * std::get<0>(test.param).friction,
+                                              std::get<1>(test.param), std::get<2>(test.param));
                          });
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace moraine {
 namespace {
 
 using test::example;
+using test::impulse_engines;
 using test::ModelRun;
 using test::set;
 
@@ -83,13 +84,19 @@ TEST(AtRest, BoxSettlesAlikeWholeAndCut) {
   EXPECT_NEAR(cut.height, whole.height, 0.02 * whole.height);
 }
 
-TEST(AtRest, ColumnStandsAlikeWholeAndCut) {
-  const Rest whole = settle("column", 1, 20), cut = settle("column", 5, 20);
+class Column : public testing::TestWithParam<const char*> {};
+
+TEST_P(Column, StandsAlikeWholeAndCut) {
+  const std::vector<Override> engine{set("run.engine", GetParam())};
+  const Rest whole = settle("column", 1, 20, engine), cut = settle("column", 5, 20, engine);
   expect_sound(whole, 1e-6);
   expect_sound(cut, 1e-6);
   expect_alike(cut, whole);
   EXPECT_NEAR(cut.height, whole.height, 1e-3 * whole.height);
 }
+
+INSTANTIATE_TEST_SUITE_P(Engines, Column, testing::ValuesIn(impulse_engines),
+                         [](const auto& test) { return test.param; });
 
 /// Every sphere of a column a sub-model of its own: the most cuts there can be.
 TEST(AtRest, ColumnStandsInPiecesOfOne) {
@@ -100,10 +107,13 @@ TEST(AtRest, ColumnStandsInPiecesOfOne) {
   EXPECT_LT(run.kinetic_energy() / (20 * run.scene().typical_mass() * 9.81), 1e-4);
 }
 
+class Hydrostatic : public testing::TestWithParam<const char*> {};
+
 /// Smooth spheres in a smooth box: the floor carries the weight, walls push back alike.
-TEST(Hydrostatic, FloorCarriesTheWeight) {
+TEST_P(Hydrostatic, FloorCarriesTheWeight) {
   for (const int parts : {1, 3}) {
-    ModelRun run(example("box_settle", {set("materials.grain.friction", 0), set("run.sub_models", parts)}));
+    ModelRun run(example("box_settle", {set("materials.grain.friction", 0), set("run.sub_models", parts),
+                                        set("run.engine", GetParam())}));
     run.steps(6 * 120);
     Vec3 sum = Vec3::Zero();
     const int looks = 2 * 120;
@@ -116,6 +126,9 @@ TEST(Hydrostatic, FloorCarriesTheWeight) {
     EXPECT_LT(sum.head<2>().norm(), 0.01 * weight);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Engines, Hydrostatic, testing::ValuesIn(impulse_engines),
+                         [](const auto& test) { return test.param; });
 
 }  // namespace
 }  // namespace moraine
