@@ -10,7 +10,7 @@ namespace {
 
 bool supports(const Geometry& geometry) { return std::holds_alternative<Sphere>(geometry); }
 
-/// Flat while the bodies and contacts of a world fit the processor's caches.
+/// A guess: flat while a world fits the processor's caches, then a little more; timings scattered by more than that.
 double relative_cost(double bodies) { return 1 + 0.25 * std::log10(std::max(bodies, 1e4) / 1e4); }
 
 std::unique_ptr<World> make(const WorldSettings& settings, const Vec3& origin) {
