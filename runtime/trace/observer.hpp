@@ -8,7 +8,7 @@
 
 namespace moraine::runtime {
 
-struct TaskRecord {
+struct EndedTask {
   int stage = 0;
   SubModelId sub_model = 0;
   Round round;
@@ -21,7 +21,7 @@ class TaskObserver {
  public:
   virtual ~TaskObserver() = default;
   /// Called once for every task that ended well, from its thread, one call at a time. All workers wait meanwhile.
-  virtual void task_done(const TaskRecord& record) = 0;
+  virtual void task_done(const EndedTask& record) = 0;
 };
 
 }  // namespace moraine::runtime

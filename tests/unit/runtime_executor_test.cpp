@@ -211,7 +211,7 @@ TEST(Executor, NoticesSchedulersThatBreakTheirContract) {
 
 class Listener final : public TaskObserver {
  public:
-  void task_done(const TaskRecord& record) override {
+  void task_done(const EndedTask& record) override {
     ++seen[{record.stage, record.sub_model, record.round.in_epoch}];
     EXPECT_LE(record.start, record.end);
     EXPECT_EQ(record.round.number, 100 + std::max<std::int64_t>(0, record.round.in_epoch - 1));
