@@ -75,8 +75,7 @@ void plan_targets(Model& model, SubModelId id, int stage, int read_in, std::vect
 std::vector<Message> plan_messages(Model& model) {
   const std::vector<int> receiver = receivers_of(model.stages());
   std::vector<Message> plan;
-  for (SubModelId id = 0; id < model.size(); ++id) {
-    if (!model.placement().holds(id)) continue;
+  for (const SubModelId id : model.held()) {
     for (int stage = 0; stage < static_cast<int>(receiver.size()); ++stage) {
       plan_targets(model, id, stage, receiver[static_cast<std::size_t>(stage)], plan);
       plan_sources(model, id, stage, plan);

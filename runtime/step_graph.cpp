@@ -81,9 +81,8 @@ void add_slot_free(Model& model, const StepGraph& graph, const Message& message,
 std::vector<double> counted_work(Model& model) {
   std::vector<double> cost;
   const int stages = static_cast<int>(model.stages().size());
-  for (SubModelId s = 0; s < model.size(); ++s)
-    for (int stage = 0; stage < stages && model.placement().holds(s); ++stage)
-      cost.push_back(model.sub_model(s).counted_work(stage));
+  for (const SubModelId s : model.held())
+    for (int stage = 0; stage < stages; ++stage) cost.push_back(model.sub_model(s).counted_work(stage));
   return cost;
 }
 
@@ -93,13 +92,6 @@ void await_message(StepGraph& graph, const Message& message) {
   ++graph.predecessors[node];
   if (!message.next_round()) ++graph.opening_predecessors[node];
   graph.awaits_messages = true;
-}
-
-std::vector<SubModelId> held(const Model& model) {
-  std::vector<SubModelId> ids;
-  for (SubModelId id = 0; id < model.size(); ++id)
-    if (model.placement().holds(id)) ids.push_back(id);
-  return ids;
 }
 
 }  // namespace
@@ -127,7 +119,7 @@ StepGraph assemble_graph(std::vector<std::string> stages, std::size_t sub_models
 
 StepGraph build_step_graph(Model& model) {
   StepGraph shape;
-  shape.ids = held(model);
+  shape.ids = model.held();
   shape.sub_models = shape.ids.size();
   for (const Stage& stage : model.stages()) shape.stages.emplace_back(stage.name);
   std::vector<Link> links;

@@ -93,6 +93,13 @@ class Model {
   const Placement& placement() const { return placement_; }
   /// Owners change; what leaves is released, what comes is adopted.
   void place(Placement placement) { placement_ = std::move(placement); }
+  /// Those that are here, ascending.
+  virtual std::vector<SubModelId> held() const {
+    std::vector<SubModelId> ids;
+    for (SubModelId id = 0; id < size(); ++id)
+      if (placement_.holds(id)) ids.push_back(id);
+    return ids;
+  }
   virtual void release(SubModelId) {}
   virtual void adopt(SubModelId id, std::span<const std::byte> saved) { sub_model(id).load(saved); }
 

@@ -12,6 +12,7 @@
 #include "commands.hpp"
 #include "options.hpp"
 #include "physics/errors.hpp"
+#include "replay.hpp"
 #include "runtime/migrate/checkpoint.hpp"
 #include "runtime/run_error.hpp"
 #include "runtime/transport/mpi_session.hpp"
@@ -97,6 +98,10 @@ int main(int argc, char** argv) {
   int ranks = 1;
   info->add_option("--ranks", ranks, "ranks that would share the scene")->check(CLI::PositiveNumber);
   CLI::App* list = app.add_subcommand("list", "engines, splits, couplings, schedulers, output formats");
+  moraine::app::ReplayChoices replay_choices;
+  CLI::App* replay =
+      app.add_subcommand("replay", "a traced run on other ranks, cores, schedulers and balancers, without running it");
+  replay_choices.add_to(*replay);
   std::string folder;
   int width = 1200;
   CLI::App* render = app.add_subcommand("render", "pictures of a run's frames");
@@ -117,6 +122,7 @@ int main(int argc, char** argv) {
   return guarded([&] {
     if (*info) return moraine::app::info(info_options.read(), ranks);
     if (*list) return moraine::app::list();
+    if (*replay) return moraine::app::replay(replay_choices);
     return moraine::app::render(folder, width);
   });
 }

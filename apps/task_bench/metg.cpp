@@ -7,8 +7,8 @@
 namespace moraine::task_bench {
 namespace {
 
-constexpr double largest_task = 4e-4, least_efficiency = 0.25;  // seconds; share
-constexpr std::int64_t fewest_steps = 50, most_steps = 2000;
+constexpr double largest_task = 1e-4, least_efficiency = 0.25;  // seconds; share
+constexpr std::int64_t fewest_steps = 20, most_steps = 500;
 
 std::int64_t steps_for(const Measurement& m, double task_seconds) {
   const double steps = m.run_seconds * m.cores / (task_seconds * static_cast<double>(m.problem.graph.width()));

@@ -27,7 +27,7 @@ struct Measurement {
   double seconds_per_iteration = 0;
   int cores = 1;
   int repeats = 5;
-  double run_seconds = 0.02;  ///< of useful work in one run, about
+  double run_seconds = 0.01;  ///< of useful work in one run, about
   /// Collective, if there are several ranks: the longest time of all, and the sum of checksums.
   std::function<Outcome(const Problem&)> run;
 };

@@ -55,6 +55,17 @@ bool fits_memory(const BalanceProblem& problem, const Owners& owners) {
   return std::equal(used.begin(), used.end(), problem.memory.begin(), std::less_equal<>());
 }
 
+BalanceCosts costs_of(bool measured, std::int64_t every) {
+  constexpr double seconds_per_counted = 1e-6;  // a body or a contact in an engine's step
+  constexpr double least_horizon = 100;         // rounds: a gain lasts longer than to the next look
+  BalanceCosts costs;
+  costs.seconds_per_byte = 1e-9;
+  costs.seconds_per_move = 2.5e-4;
+  costs.seconds_per_load = measured ? 1.0 : seconds_per_counted;
+  costs.rounds = std::max(least_horizon, static_cast<double>(every));
+  return costs;
+}
+
 BalanceDecision decide(const BalanceProblem& problem, const Balancer& balancer, bool forced) {
   check(problem);
   BalanceDecision decision;

@@ -12,12 +12,6 @@
 namespace moraine::runtime {
 namespace {
 
-// Saving, sending and loading a sub-model, measured on one machine: about 1 GB/s, and a quarter of a millisecond.
-constexpr double seconds_per_byte = 1e-9;
-constexpr double seconds_per_move = 2.5e-4;
-constexpr double seconds_per_counted = 1e-6;  // a body or a contact in an engine's step
-constexpr double least_horizon = 100;         // rounds: a gain lasts longer than to the next look
-
 using Clock = std::chrono::steady_clock;
 
 template <class Record>
@@ -137,10 +131,7 @@ BalanceProblem Rebalance::problem(const Collected& all, const std::vector<int>& 
   p.owner = owner;
   p.speed.assign(static_cast<std::size_t>(transport_.ranks()), 1.0);
   p.turn = turn_;
-  p.costs.seconds_per_byte = seconds_per_byte;
-  p.costs.seconds_per_move = seconds_per_move;
-  p.costs.seconds_per_load = options_.measured ? 1.0 : seconds_per_counted;
-  p.costs.rounds = std::max(least_horizon, static_cast<double>(options_.every));
+  p.costs = costs_of(options_.measured, options_.every);
   return p;
 }
 
