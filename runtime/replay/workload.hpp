@@ -42,7 +42,7 @@ struct WorkEpoch {
   }
 };
 
-/// What the traced machine spent on a task beside its work, medians.
+/// What the traced machine spent on a task beside its work, means: what the operating system takes is in them.
 struct Overheads {
   double next = 0;     ///< seconds from the end of a task to the start of the next on the same worker, if one is ready
   double wake = 0;     ///< seconds from a task being ready to its start on a worker that waited for it
