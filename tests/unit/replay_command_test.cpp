@@ -17,7 +17,9 @@ using test::shell;
 /// Three sub-models that know nothing of each other, ten rounds of a second each, on one thread.
 runtime::Trace three_sub_models() {
   runtime::Trace t;
-  t.settings = {.title = "three", .scheduler = "serial", .balancer = "none", .predictor = "median"};
+  t.settings.scheduler = "serial";
+  t.settings.balancer = "none";
+  t.settings.predictor = "median";
   t.settings.sub_models = 3;
   t.settings.threads = {1};
   t.settings.cores = {1};
@@ -63,7 +65,7 @@ TEST_F(ReplayCommand, SweepsAndNamesTheBest) {
 }
 
 TEST_F(ReplayCommand, ScalesTheModel) {
-  const Ended e = replay("--scale 5 --ranks 5 --threads 3 --json");
+  const Ended e = replay("--scale 5 --ranks 5 --threads 3 --scheduler hybrid --json");
   ASSERT_EQ(e.status, 0) << e.text;
   const auto json = nlohmann::json::parse(e.text);
   EXPECT_EQ(json["best"]["sub_models"], 15);
