@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/impulse/pair_contacts.hpp"
 
-#include <numeric>
+#include <bit>
 
 namespace moraine::impulse {
 namespace {
@@ -10,29 +10,28 @@ static_assert(sizeof(PairRow) == 80);
 
 std::uint64_t key(const PairRow& r) { return std::uint64_t{r.a} << 32 | r.b; }
 
-template <bool Friction>
-Vec slip(const PairRow& row, const Moving& a, const Moving& b) {
-  const Vec apart = a.velocity - b.velocity;
-  if constexpr (!Friction) return apart;
-  return apart - (a.turning + b.turning).cross3(row.normal);
+void copy(const PairRow& from, std::uint32_t row, PairBatch& to, std::uint32_t lane) {
+  to.a[lane] = from.a;
+  to.b[lane] = from.b;
+  to.row[lane] = row;
+  to.inverse_mass_a[lane] = from.inverse_mass_a;
+  to.inverse_mass_b[lane] = from.inverse_mass_b;
+  for (int axis = 0; axis < 3; ++axis) {
+    to.normal[axis][lane] = from.normal[axis];
+    to.side[axis][lane] = from.side[axis];
+  }
+  to.push[lane] = from.push;
+  to.approach[lane] = from.approach;
+  to.mass[lane] = from.mass;
+  to.friction[lane] = from.friction;
+  to.firmness[lane] = from.firmness;
+  to.yielding[lane] = from.yielding;
+  to.rebound[lane] = from.rebound;
+  to.gap[lane] = from.gap;
 }
 
-void apply(const PairRow& row, Moving& a, Moving& b, const Vec& impulse) {
-  a.velocity += row.inverse_mass_a * impulse;
-  b.velocity -= row.inverse_mass_b * impulse;
-}
-
-void apply_turn(const PairRow& row, Moving& a, Moving& b, const Vec& side) {
-  const Vec turned = turn(side, row.normal);
-  a.turning += row.inverse_mass_a * turned;
-  b.turning += row.inverse_mass_b * turned;
-}
-
-Vec normal_between(const Bodies& bodies, Place a, Place b) {
-  const Vec between = three(bodies.position[a] - bodies.position[b]);
-  const float distance = between.norm();
-  return distance > 0 ? Vec(between / distance) : Vec(Vec::UnitZ());
-}
+/// Rows of this colour may share bodies, and are solved one by one.
+constexpr std::uint8_t crowded = 63;
 
 }  // namespace
 
@@ -59,7 +58,8 @@ void PairContacts::gather(const Bodies& bodies) {
   if (rows_.size() <= close_.size()) rows_.resize(close_.size() + 1);
   for (const std::uint32_t k : close_) count_ += fill(bodies, k, rows_[count_]);
   take_up_impulses();
-  put_in_order();
+  choose_colours(bodies.size());
+  fill_batches();
 }
 
 /// Without branches: which pairs are close cannot be guessed.
@@ -109,54 +109,61 @@ void PairContacts::take_up_impulses() {
   }
 }
 
-/// First the first contacts of all bodies, then their second ones, and so on: the processor can work on several rows at
-/// once where neighbours in the order do not share a body.
-void PairContacts::put_in_order() {
-  order_end_.clear();
-  rank_.resize(count_);
+/// Rows of a colour share no body. A row gets the first colour that no earlier row of its bodies has, so its colour
+/// depends on nothing but what it is connected with.
+void PairContacts::choose_colours(std::size_t bodies) {
+  taken_.assign(bodies, 0);
+  colour_.resize(count_);
+  colour_rows_.assign(crowded + 1, 0);
   for (std::size_t k = 0; k < count_; ++k) {
-    rank_[k] = k > 0 && rows_[k - 1].a == rows_[k].a ? rank_[k - 1] + 1 : 0;
-    if (rank_[k] >= order_end_.size()) order_end_.push_back(0);
-    ++order_end_[rank_[k]];
-  }
-  std::exclusive_scan(order_end_.begin(), order_end_.end(), order_end_.begin(), 0U);
-  order_.resize(count_);
-  for (std::size_t k = 0; k < count_; ++k) order_[order_end_[rank_[k]]++] = static_cast<std::uint32_t>(k);
-}
-
-void PairContacts::warm_start(Moving* bodies) const {
-  for (const PairRow& row : rows()) {
-    if (row.push == 0) continue;
-    Moving &a = bodies[row.a], &b = bodies[row.b];
-    apply(row, a, b, row.push * row.normal + row.side);
-    if (rule_.friction) apply_turn(row, a, b, row.side);
+    std::uint64_t &a = taken_[rows_[k].a], &b = taken_[rows_[k].b];
+    const auto colour = static_cast<std::uint8_t>(std::min<int>(std::countr_one(a | b), crowded));
+    a |= std::uint64_t{1} << colour;
+    b |= std::uint64_t{1} << colour;
+    colour_[k] = colour;
+    ++colour_rows_[colour];
   }
 }
 
-void PairContacts::sweep(Moving* bodies) {
-  if (rule_.friction)
-    sweep_all<true>(bodies);
-  else
-    sweep_all<false>(bodies);
+/// Every colour begins a batch; each crowded row has one of its own.
+void PairContacts::fill_batches() {
+  colour_cursor_.assign(crowded + 1, 0);
+  std::size_t count = 0;
+  for (std::size_t c = 0; c <= crowded; ++c) {
+    colour_cursor_[c] = static_cast<std::uint32_t>(batch_lanes * count);
+    count += c == crowded ? colour_rows_[c] : (colour_rows_[c] + batch_lanes - 1) / batch_lanes;
+  }
+  batches_.resize(count);
+  for (PairBatch& b : batches_) b.used = 0;
+  for (std::uint32_t k = 0; k < count_; ++k) {
+    std::uint32_t& lane = colour_cursor_[colour_[k]];
+    PairBatch& batch = batches_[lane / batch_lanes];
+    copy(rows_[k], k, batch, batch.used++);
+    lane += colour_[k] == crowded ? batch_lanes : 1;
+  }
+  for (PairBatch& b : batches_)
+    for (std::uint32_t lane = b.used; lane < batch_lanes; ++lane) copy(rows_[b.row[0]], b.row[0], b, lane);
 }
 
-template <bool Friction>
-void PairContacts::sweep_all(Moving* bodies) {
-  for (const std::uint32_t k : order_) {
-    PairRow& row = rows_[k];
-    Moving &a = bodies[row.a], &b = bodies[row.b];
-    const Change change = correct<Friction>(row, slip<Friction>(row, a, b));
-    apply(row, a, b, change.impulse);
-    if constexpr (Friction) apply_turn(row, a, b, change.side);
-  }
+PairTask PairContacts::task(Bodies& bodies) {
+  if (bodies.size() == 0) return {};
+  return {batches_.data(), batches_.size(), bodies.moving.data()->velocity.data(), bodies.position.data()->data(),
+          rule_.friction};
 }
 
-void PairContacts::relax(const Bodies& bodies) {
-  for (std::size_t k = 0; k < count_; ++k) {
-    PairRow& row = rows_[k];
-    impulse::relax(row);
-    if (row.push > 0 && row.gap > 0) row.normal = normal_between(bodies, row.a, row.b);
-  }
+void PairContacts::relax(Bodies& bodies) {
+  kernels_.relax(task(bodies));
+  keep_impulses();
+}
+
+void PairContacts::keep_impulses() {
+  for (const PairBatch& b : batches_)
+    for (std::uint32_t lane = 0; lane < b.used; ++lane) {
+      PairRow& row = rows_[b.row[lane]];
+      row.push = b.push[lane];
+      row.side = {b.side[0][lane], b.side[1][lane], b.side[2][lane], 0};
+      row.normal = {b.normal[0][lane], b.normal[1][lane], b.normal[2][lane], 0};
+    }
 }
 
 }  // namespace moraine::impulse

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "physics/impulse/bodies.hpp"
+#include "physics/impulse/pair_kernels.hpp"
 #include "physics/impulse/step_rule.hpp"
 #include "physics/native/verlet_list.hpp"
 
@@ -28,29 +29,34 @@ class PairContacts {
 
   /// Rows of all pairs that may meet in this step, from the velocities at its start. Cost: linear in listed pairs.
   void gather(const Bodies& bodies);
-  void warm_start(Moving* bodies) const;
-  void sweep(Moving* bodies);
-  /// Bodies have moved by their velocities over the step: what remains is to part with the right speed. Those that met
-  /// in the step do so along the line on which they touch: that keeps angular momentum.
-  void relax(const Bodies& bodies);
+  void warm_start(Bodies& bodies) { kernels_.warm_start(task(bodies)); }
+  void sweep(Bodies& bodies) { kernels_.sweep(task(bodies)); }
+  /// The last sweep, after bodies have moved by their velocities over the step. Completes rows().
+  void relax(Bodies& bodies);
 
   std::span<const PairRow> rows() const { return {rows_.data(), count_}; }
   void restore(std::vector<PairRow> rows);
 
  private:
-  template <bool Friction>
-  void sweep_all(Moving* bodies);
+  PairTask task(Bodies& bodies);
   void find_close(const Bodies& bodies);
   bool fill(const Bodies& bodies, std::size_t pair, PairRow& row) const;
   void take_up_impulses();
-  void put_in_order();
+  void choose_colours(std::size_t bodies);
+  void fill_batches();
+  void keep_impulses();
 
   const StepRule& rule_;
   native::VerletList pairs_;
   std::vector<PairRow> rows_, before_;  ///< ascending (a, b); the first count_ and count_before_ are in use
   std::size_t count_ = 0, count_before_ = 0;
-  std::vector<std::uint32_t> close_;                     ///< pairs within reach
-  std::vector<std::uint32_t> rank_, order_, order_end_;  ///< in which rows are solved
+  std::vector<std::uint32_t> close_;          ///< pairs within reach
+  std::vector<std::uint64_t> taken_;          ///< by body: colours of its rows, as bits
+  std::vector<std::uint8_t> colour_;          ///< by row
+  std::vector<std::uint32_t> colour_rows_;    ///< rows of each colour
+  std::vector<std::uint32_t> colour_cursor_;  ///< lane that the next row of each colour takes
+  std::vector<PairBatch> batches_;            ///< in the order in which they are solved
+  const PairKernels& kernels_ = pair_kernels();
 };
 
 }  // namespace moraine::impulse

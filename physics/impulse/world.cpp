@@ -66,9 +66,7 @@ void ImpulseWorld::step(double t) {
   warm_start();
   for (int k = 0; k < rule_.sweeps; ++k) sweep();
   bodies_.advance(rule_.h, turns_);
-  pairs_.relax(bodies_);
-  walls_.relax();
-  sweep();
+  relax();
   bonds_.keep_impulses();
   walls_.sum_impulse(bodies_);
 }
@@ -90,13 +88,20 @@ void ImpulseWorld::gather() {
 
 void ImpulseWorld::warm_start() {
   bonds_.warm_start(bodies_.moving.data());
-  pairs_.warm_start(bodies_.moving.data());
+  pairs_.warm_start(bodies_);
   walls_.warm_start(bodies_.moving.data());
 }
 
 void ImpulseWorld::sweep() {
   bonds_.sweep(bodies_.moving.data());
-  pairs_.sweep(bodies_.moving.data());
+  pairs_.sweep(bodies_);
+  walls_.sweep(bodies_.moving.data());
+}
+
+void ImpulseWorld::relax() {
+  bonds_.sweep(bodies_.moving.data());
+  pairs_.relax(bodies_);
+  walls_.relax();
   walls_.sweep(bodies_.moving.data());
 }
 

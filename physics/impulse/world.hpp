@@ -13,7 +13,7 @@ namespace moraine::impulse {
 
 /// A step (Catto, "Solver2D" 2024, there a sub-step of "soft step"): gravity; last step's impulses; sweeps over all
 /// rows with soft contacts; positions; one more sweep that takes back the speed with which overlaps were removed, and
-/// in which impacts rebound. Rows are solved in id order: bonds, pairs, boundaries.
+/// in which impacts rebound. Order: bonds, pairs by colour, boundaries.
 class ImpulseWorld final : public World {
  public:
   ImpulseWorld(const WorldSettings& settings, const Vec3& origin);
@@ -49,6 +49,7 @@ class ImpulseWorld final : public World {
   void gather();
   void warm_start();
   void sweep();
+  void relax();
   Contact contact(const PairRow& row) const;
   Contact contact(const WallRow& row) const;
 
