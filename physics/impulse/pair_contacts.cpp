@@ -55,8 +55,9 @@ void PairContacts::gather(const Bodies& bodies) {
   std::swap(rows_, before_);
   count_before_ = std::exchange(count_, 0);
   find_close(bodies);
-  if (rows_.size() <= close_.size()) rows_.resize(close_.size() + 1);
-  for (const std::uint32_t k : close_) count_ += fill(bodies, k, rows_[count_]);
+  place_close(bodies);
+  if (rows_.size() <= meeting_.size()) rows_.resize(meeting_.size() + 1);
+  for (const std::uint32_t k : meeting_) count_ += fill(bodies, k, rows_[count_]);
   take_up_impulses();
   choose_colours(bodies.size());
   fill_batches();
@@ -77,14 +78,31 @@ void PairContacts::find_close(const Bodies& bodies) {
   close_.resize(found);
 }
 
-/// Writes the row of a pair; false if it is not needed.
-bool PairContacts::fill(const Bodies& bodies, std::size_t pair, PairRow& row) const {
-  row.a = pairs_.lower()[pair];
-  row.b = pairs_.higher()[pair];
-  const Vec between = three(bodies.position[row.a] - bodies.position[row.b]);
-  const float distance = between.norm(), gap = distance - bodies.radius(row.a) - bodies.radius(row.b);
-  row.normal = distance > 0 ? Vec((1 / distance) * between) : Vec(Vec::UnitZ());
-  const float closing = row.normal.dot(bodies.moving[row.b].velocity - bodies.moving[row.a].velocity);
+/// Works out how close pairs lie, and which may meet.
+void PairContacts::place_close(const Bodies& bodies) {
+  const std::size_t count = close_.size();
+  close_.resize((count + batch_lanes - 1) / batch_lanes * batch_lanes, count > 0 ? close_.back() : 0);
+  placing_.resize(close_.size() / batch_lanes);
+  if (count > 0)
+    kernels_.place({pairs_.lower().data(), pairs_.higher().data(), close_.data(), close_.size(),
+                    bodies.moving.data()->velocity.data(), bodies.position.data()->data(), placing_.data()});
+  meeting_.resize(count + 1);
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const PairPlacing& p = placing_[k / batch_lanes];
+    meeting_[found] = static_cast<std::uint32_t>(k);
+    found += p.gap[k % batch_lanes] < rule_.range(p.closing[k % batch_lanes]);
+  }
+  meeting_.resize(found);
+}
+
+/// Writes the row of a close pair; false if it is not needed.
+bool PairContacts::fill(const Bodies& bodies, std::size_t close, PairRow& row) const {
+  const PairPlacing& p = placing_[close / batch_lanes];
+  const std::size_t lane = close % batch_lanes;
+  row.a = pairs_.lower()[close_[close]];
+  row.b = pairs_.higher()[close_[close]];
+  row.normal = {p.normal[0][lane], p.normal[1][lane], p.normal[2][lane], 0};
   const Weight &a = bodies.weight[row.a], &b = bodies.weight[row.b];
   const PairConstants& law = rule_.of(a.material, b.material);
   row.inverse_mass_a = a.inverse_mass;
@@ -92,7 +110,8 @@ bool PairContacts::fill(const Bodies& bodies, std::size_t pair, PairRow& row) co
   row.mass = 1 / (a.inverse_mass + b.inverse_mass);
   row.push = 0;
   row.side.setZero();
-  return rule_.prepare(row, gap, closing, law, bodies.shared(row.a) || bodies.shared(row.b));
+  const bool shared = bodies.shared(row.a) || bodies.shared(row.b);
+  return rule_.prepare(row, p.gap[lane], p.closing[lane], law, shared);
 }
 
 /// From the rows of the step before, turned with the contact. What made an impact does not go on.

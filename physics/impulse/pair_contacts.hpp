@@ -40,7 +40,8 @@ class PairContacts {
  private:
   PairTask task(Bodies& bodies);
   void find_close(const Bodies& bodies);
-  bool fill(const Bodies& bodies, std::size_t pair, PairRow& row) const;
+  void place_close(const Bodies& bodies);
+  bool fill(const Bodies& bodies, std::size_t close, PairRow& row) const;
   void take_up_impulses();
   void choose_colours(std::size_t bodies);
   void fill_batches();
@@ -51,6 +52,8 @@ class PairContacts {
   std::vector<PairRow> rows_, before_;  ///< ascending (a, b); the first count_ and count_before_ are in use
   std::size_t count_ = 0, count_before_ = 0;
   std::vector<std::uint32_t> close_;          ///< pairs within reach
+  std::vector<PairPlacing> placing_;          ///< of those
+  std::vector<std::uint32_t> meeting_;        ///< those of them that may meet, as places in close_
   std::vector<std::uint64_t> taken_;          ///< by body: colours of its rows, as bits
   std::vector<std::uint8_t> colour_;          ///< by row
   std::vector<std::uint32_t> colour_rows_;    ///< rows of each colour

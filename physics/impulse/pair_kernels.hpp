@@ -31,8 +31,23 @@ struct PairTask {
   bool friction = false;
 };
 
+/// How eight pairs lie and move; a pair is a place in the list.
+struct alignas(32) PairPlacing {
+  PairBatch::Lanes normal[3];  ///< unit, towards the lower one
+  PairBatch::Lanes gap, closing;
+};
+
+struct PairPlacingTask {
+  const std::uint32_t *lower = nullptr, *higher = nullptr;  ///< the list
+  const std::uint32_t* pairs = nullptr;                     ///< a multiple of eight, indices into the list
+  std::size_t count = 0;
+  const float *moving = nullptr, *position = nullptr;  ///< as in PairTask
+  PairPlacing* out = nullptr;
+};
+
 /// One set of kernels. All sets do the same operations in the same order, so they give the same bits.
 struct PairKernels {
+  void (*place)(const PairPlacingTask&);
   void (*warm_start)(const PairTask&);
   void (*sweep)(const PairTask&);
   /// The sweep after bodies have moved: what remains is to part with the right speed. Contacts that met within the step

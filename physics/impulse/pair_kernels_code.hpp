@@ -67,20 +67,29 @@ MORAINE_INLINE Wide cross(const Wide& a, const Wide& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Numbers 0, 1, 2 of the four that start at from + stride index[k], for all k.
-MORAINE_INLINE Wide gather(const float* from, const std::uint32_t* index, std::size_t stride) {
+struct Four {
+  Wide xyz;
+  F8 w;
+};
+
+/// The four numbers that start at from + stride index[k], for all k.
+MORAINE_INLINE Four gather_four(const float* from, const std::uint32_t* index, std::size_t stride) {
   const auto pair = [&](std::size_t k) __attribute__((always_inline)) {
-    return __builtin_shufflevector(load_four(from + stride * index[k]), load_four(from + stride * index[k + 4]), 0, 1, 2,
-                                   3, 4, 5, 6, 7);
+    return __builtin_shufflevector(load_four(from + stride * index[k]), load_four(from + stride * index[k + 4]), 0, 1,
+                                   2, 3, 4, 5, 6, 7);
   };
   const F8 p = pair(0), q = pair(1), r = pair(2), s = pair(3);
   const F8 xy_low = __builtin_shufflevector(p, q, 0, 8, 1, 9, 4, 12, 5, 13);
   const F8 xy_high = __builtin_shufflevector(r, s, 0, 8, 1, 9, 4, 12, 5, 13);
   const F8 z_low = __builtin_shufflevector(p, q, 2, 10, 3, 11, 6, 14, 7, 15);
   const F8 z_high = __builtin_shufflevector(r, s, 2, 10, 3, 11, 6, 14, 7, 15);
-  return {__builtin_shufflevector(xy_low, xy_high, 0, 1, 8, 9, 4, 5, 12, 13),
-          __builtin_shufflevector(xy_low, xy_high, 2, 3, 10, 11, 6, 7, 14, 15),
-          __builtin_shufflevector(z_low, z_high, 0, 1, 8, 9, 4, 5, 12, 13)};
+  return {{__builtin_shufflevector(xy_low, xy_high, 0, 1, 8, 9, 4, 5, 12, 13),
+           __builtin_shufflevector(xy_low, xy_high, 2, 3, 10, 11, 6, 7, 14, 15),
+           __builtin_shufflevector(z_low, z_high, 0, 1, 8, 9, 4, 5, 12, 13)},
+          __builtin_shufflevector(z_low, z_high, 2, 3, 10, 11, 6, 7, 14, 15)};
+}
+MORAINE_INLINE Wide gather(const float* from, const std::uint32_t* index, std::size_t stride) {
+  return gather_four(from, index, stride).xyz;
 }
 
 /// The way back, with 0 as the fourth number, for the first `used` indices.
@@ -145,8 +154,8 @@ MORAINE_INLINE void correct(PairBatch& batch, float* moving) {
   Wide slip = m.velocity_a - m.velocity_b;
   if constexpr (Friction) slip = slip - cross(m.turning_a + m.turning_b, normal);
   const F8 parting = dot(normal, slip), before = load(batch.push);
-  const F8 push = larger(
-      before - load(batch.firmness) * (parting + load(batch.approach)) - load(batch.yielding) * before, all(0));
+  const F8 push =
+      larger(before - load(batch.firmness) * (parting + load(batch.approach)) - load(batch.yielding) * before, all(0));
   store(push, batch.push);
   Wide impulse = (push - before) * normal, change{};
   if constexpr (Friction) {
@@ -206,11 +215,31 @@ void relax_all(const PairTask& task) {
   }
 }
 
+void place(const PairPlacingTask& task) {
+  for (std::size_t at = 0; at < task.count; at += batch_lanes) {
+    std::uint32_t a[batch_lanes], b[batch_lanes];
+    for (std::size_t k = 0; k < batch_lanes; ++k) {
+      a[k] = task.lower[task.pairs[at + k]];
+      b[k] = task.higher[task.pairs[at + k]];
+    }
+    const Four ball_a = gather_four(task.position, a, 4), ball_b = gather_four(task.position, b, 4);
+    const Wide between = ball_a.xyz - ball_b.xyz;
+    const F8 distance = root(dot(between, between)), inverse = all(1) / distance;
+    const I8 apart = distance > all(0);
+    const Wide normal{choose(apart, inverse * between.x, all(0)), choose(apart, inverse * between.y, all(0)),
+                      choose(apart, inverse * between.z, all(1))};
+    PairPlacing& out = task.out[at / batch_lanes];
+    store(normal, out.normal);
+    store(distance - ball_a.w - ball_b.w, out.gap);
+    store(dot(normal, gather(task.moving, b, 8) - gather(task.moving, a, 8)), out.closing);
+  }
+}
+
 void warm_start(const PairTask& task) { task.friction ? warm_start_all<true>(task) : warm_start_all<false>(task); }
 void sweep(const PairTask& task) { task.friction ? sweep_all<true>(task) : sweep_all<false>(task); }
 void relax(const PairTask& task) { task.friction ? relax_all<true>(task) : relax_all<false>(task); }
 
-constexpr PairKernels kernels_of_this_file{warm_start, sweep, relax};
+constexpr PairKernels kernels_of_this_file{place, warm_start, sweep, relax};
 
 #undef MORAINE_INLINE
 

@@ -38,8 +38,10 @@ class StepRule {
     row.yielding = hard ? 0 : impulse_scale_;
     const float opening = std::min(opening_ * positive(-gap), push_limit);
     row.approach = bounces ? -row.rebound : closing_ * positive(gap) - opening;
-    return gap < (bounces ? 0 : std::min(slack_ + h * positive(closing), reach_));
+    return gap < (bounces ? 0 : range(closing));
   }
+  /// The largest gap across which surfaces that close at this speed may meet in this step.
+  float range(float closing) const { return std::min(slack_ + h * positive(closing), reach_); }
 
  private:
   static constexpr float push_limit = 1;

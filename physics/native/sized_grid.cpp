@@ -20,7 +20,7 @@ void SizedGrid::build(std::span<const Ball> balls, double margin) {
     c.largest = std::max(c.largest, balls[i].radius);
   }
   for (Class& c : classes_)
-    if (!c.members.empty()) c.grid.build(c.centres, 2 * c.largest + margin);
+    if (!c.members.empty()) c.grid.build(c.centres, c.largest + margin / 2);
 }
 
 }  // namespace moraine::native
