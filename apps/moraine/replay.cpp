@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "runtime/replay/replay.hpp"
 #include "runtime/trace/trace_file.hpp"
@@ -122,16 +123,14 @@ void print_list(const std::vector<Case>& cases) {
   }
 }
 
-/// Of layouts within 1 % of the shortest makespan, the one with the fewest workers.
+/// Of layouts within 1 % of the shortest makespan, the shortest with the fewest workers.
 const Case& best(const std::vector<Case>& cases) {
-  const double shortest =
-      std::ranges::min(cases, {}, [](const Case& c) { return c.prediction.makespan; }).prediction.makespan;
-  const Case* found = nullptr;
-  for (const Case& c : cases)
-    if (c.prediction.makespan <= 1.01 * shortest &&
-        (found == nullptr || c.options.machine.workers() < found->options.machine.workers()))
-      found = &c;
-  return *found;
+  const auto makespan = [](const Case& c) { return c.prediction.makespan; };
+  const double near_shortest = 1.01 * makespan(*std::ranges::min_element(cases, {}, makespan));
+  const auto rank = [&](const Case& c) {
+    return std::tuple(makespan(c) > near_shortest, c.options.machine.workers(), makespan(c));
+  };
+  return *std::ranges::min_element(cases, {}, rank);
 }
 
 nlohmann::ordered_json to_json(const Workload& work, const Case& c) {

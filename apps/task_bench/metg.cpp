@@ -27,22 +27,23 @@ Outcome median_run(const Measurement& m, const Problem& problem) {
 
 Sweep sweep(const Measurement& m) {
   Sweep out;
-  double efficiency = 1;
+  int low = 0;  // sizes in a row; one alone may be a disturbance
   for (auto n = static_cast<std::int64_t>(largest_task / m.seconds_per_iteration); n > 0; n /= 2) {
-    if (efficiency < least_efficiency) break;
+    if (low == 2) break;
     Problem problem = m.problem;
     problem.iterations = n;
     problem.steps = steps_for(m, static_cast<double>(n) * m.seconds_per_iteration);
     const Outcome o = median_run(m, problem);
     const double offered = o.seconds * m.cores;
-    efficiency = static_cast<double>(problem.total_iterations()) * m.seconds_per_iteration / offered;
+    const double efficiency = static_cast<double>(problem.total_iterations()) * m.seconds_per_iteration / offered;
+    low = efficiency < least_efficiency ? low + 1 : 0;
     out.push_back({n, offered / static_cast<double>(problem.tasks()), efficiency, o.checksum});
   }
   return out;
 }
 
 std::optional<double> metg(const Sweep& sweep) {
-  for (std::size_t i = 1; i < sweep.size(); ++i) {
+  for (std::size_t i = sweep.size(); i-- > 1;) {
     const Size &above = sweep[i - 1], &below = sweep[i];
     if (above.efficiency < 0.5 || below.efficiency >= 0.5) continue;
     const double share = (above.efficiency - 0.5) / (above.efficiency - below.efficiency);

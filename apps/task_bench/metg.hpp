@@ -35,7 +35,7 @@ struct Measurement {
 /// Halves tasks until less than a quarter of the time is useful. Each size: the median of `repeats` runs.
 Sweep sweep(const Measurement& m);
 
-/// METG(50 %): the time of a core per task where the efficiency falls below one half, between two sizes by the
+/// METG(50 %): the least time of a core per task at which the efficiency is one half, between two sizes by the
 /// logarithms; none if it never is that high or low.
 std::optional<double> metg(const Sweep& sweep);
 

@@ -76,8 +76,11 @@ Outcome run_moraine(const Problem& problem, const std::string& scheduler, int th
   runtime::Options options{.threads = threads, .scheduler = scheduler, .transport = &transport};
   options.balance.balancer = "none";
   runtime::Simulation simulation(model, options);
+  const auto begin = std::chrono::steady_clock::now();
   simulation.run(0, problem.steps);
-  return {simulation.load().elapsed, model.checksum()};
+  const double all = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  // Ranks that share cores may run one after the other, so that only their meeting at the end says how long all took.
+  return {transport.ranks() > 1 ? all : simulation.load().elapsed, model.checksum()};
 }
 
 }  // namespace moraine::task_bench
