@@ -30,6 +30,7 @@ class CoupledModel : public runtime::Model {
   ~CoupledModel() override;
 
   std::span<const runtime::Stage> stages() const override { return SubModel::stages(); }
+  std::span<const std::string_view> counters() const override { return SubModel::counters(); }
   std::size_t size() const override { return sub_models_.size(); }
   runtime::SubModel& sub_model(runtime::SubModelId id) override { return *sub_models_[id]; }
   runtime::EpochPlan begin_epoch(std::int64_t next_round, std::int64_t at_most) override;

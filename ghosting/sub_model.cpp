@@ -98,6 +98,17 @@ double SubModel::counted_work(int stage) const {
   }
 }
 
+std::span<const std::string_view> SubModel::counters() {
+  static constexpr std::array<std::string_view, 3> names{"elements", "contacts", "ghosts"};
+  return names;
+}
+
+void SubModel::count(std::span<std::uint32_t> out) const {
+  out[0] = static_cast<std::uint32_t>(members_.size());
+  out[1] = static_cast<std::uint32_t>(world_->work().contacts);
+  out[2] = static_cast<std::uint32_t>(ghost_count());
+}
+
 /// A body with its share of contacts and of the engine's bookkeeping, measured.
 double SubModel::memory() const { return 4000.0 * static_cast<double>(members_.size() + ghost_count()); }
 

@@ -71,6 +71,7 @@ class SubModel final : public runtime::SubModel {
  public:
   enum Stage : int { ghost_build_stage, step_stage, force_mirror_stage, bound_update_stage };
   static std::span<const runtime::Stage> stages();
+  static std::span<const std::string_view> counters();
 
   /// `members`: elements ascending; `states`: one each. Bonds among them are `inner_bonds` (indices into Scene::bonds).
   /// `memory`: of contacts of the members.
@@ -84,6 +85,7 @@ class SubModel final : public runtime::SubModel {
   std::span<const runtime::SubModelId> targets(int stage) const override;
   void run(int stage, const runtime::Round& round, runtime::Port& port) override;
   double counted_work(int stage) const override;
+  void count(std::span<std::uint32_t> out) const override;
   double memory() const override;
   void save(std::vector<std::byte>& out) const override;
   void load(std::span<const std::byte> in) override;

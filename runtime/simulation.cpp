@@ -10,12 +10,24 @@
 #include "runtime/agreement.hpp"
 #include "runtime/balance/initial_owners.hpp"
 #include "runtime/cores.hpp"
+#include "runtime/records.hpp"
 #include "runtime/schedule/registry.hpp"
 
 namespace moraine::runtime {
 namespace {
 
 Transport& chosen(Transport* transport) { return transport ? *transport : alone(); }
+
+std::vector<int> over_ranks(Transport& transport, int own) {
+  Bytes told;
+  write_records(told, std::vector{own});
+  std::vector<int> all;
+  for (const Bytes& bytes : all_gather(transport, told)) {
+    std::span<const std::byte> in(bytes);
+    all.push_back(read_records<int>(in).at(0));
+  }
+  return all;
+}
 
 /// Models of one rank hold everything; others may have been placed by their maker.
 void place_if_new(Model& model, const Transport& transport) {
@@ -31,12 +43,41 @@ Simulation::Simulation(Model& model, const Options& options, Hooks hooks)
       options_(options),
       hooks_(std::move(hooks)),
       transport_(chosen(options.transport)),
+      clock_(transport_),
+      phases_(clock_),
       executor_(options.threads == 0 ? threads_for(transport_) : options.threads,
-                find_scheduler(options.scheduler).make()),
-      mail_(transport_, options.check_messages),
+                find_scheduler(options.scheduler).make(), clock_),
+      mail_(transport_, options.check_messages, clock_),
       balance_(options.balance, transport_),
       checkpoints_(options.checkpoint, transport_) {
   place_if_new(model_, transport_);
+  if (!options_.trace.file.empty())
+    recorder_.emplace(options_.trace, trace_settings(), transport_, executor_.workers());
+}
+
+TraceSettings Simulation::trace_settings() const {
+  TraceSettings s{.title = options_.trace.title,
+                  .scheduler = options_.scheduler,
+                  .balancer = options_.balance.balancer,
+                  .predictor = options_.balance.predictor,
+                  .balance_every = options_.balance.every,
+                  .balance_measured = options_.balance.measured,
+                  .sub_models = static_cast<std::int64_t>(model_.size()),
+                  .rounds_per_step = options_.trace.rounds_per_step,
+                  .threads = over_ranks(transport_, executor_.workers()),
+                  .cores = over_ranks(transport_, threads_for(transport_)),
+                  .stages = {},
+                  .receives = {},
+                  .counters = {},
+                  .from = options_.trace.from,
+                  .to = options_.trace.to,
+                  .every = options_.trace.every};
+  for (const Stage& stage : model_.stages()) {
+    s.stages.emplace_back(stage.name);
+    s.receives.push_back(stage.receives);
+  }
+  for (const std::string_view name : model_.counters()) s.counters.emplace_back(name);
+  return s;
 }
 
 std::int64_t Simulation::restore(const std::filesystem::path& folder) {
@@ -48,13 +89,24 @@ std::int64_t Simulation::restore(const std::filesystem::path& folder) {
 void Simulation::run(std::int64_t first_round, std::int64_t rounds) {
   const std::int64_t end = first_round + rounds;
   for (std::int64_t next = first_round; next < end;) {
+    phases_.enter(Phase::settle);
     const auto [epoch, fresh] = next_epoch(next, end - next);
+    if (recorder_) recorder_->begin_epoch(epoch);
     if (fresh) settle(next);
     run_epoch(epoch);
     next += epoch.rounds;
+    phases_.enter(Phase::output);
     if (hooks_.at_epoch_end) hooks_.at_epoch_end(next);
+    end_epoch(epoch);
   }
   checkpoints_.finish();
+  if (recorder_) recorder_->finish();
+}
+
+void Simulation::end_epoch(const Epoch& epoch) {
+  phases_.leave();
+  std::vector<PhaseRecord> phases = phases_.take();
+  if (recorder_) recorder_->end_epoch(std::move(phases), epoch);
 }
 
 Simulation::NextEpoch Simulation::next_epoch(std::int64_t next_round, std::int64_t left) {
@@ -69,27 +121,42 @@ Simulation::NextEpoch Simulation::next_epoch(std::int64_t next_round, std::int64
 
 /// Neighbours are settled and nothing runs: sub-models may move and be saved.
 void Simulation::settle(std::int64_t next_round) {
+  phases_.enter(Phase::balance);
+  const std::size_t before = balance_.records().size();
   balance_.settle(model_, next_round);
+  if (recorder_ && balance_.records().size() > before)
+    recorder_->balanced(balance_.records().back(), balance_.last_moves());
+  phases_.enter(Phase::checkpoint);
   checkpoints_.settle(model_, balance_, next_round);
 }
 
 void Simulation::run_epoch(const Epoch& epoch) {
+  phases_.enter(Phase::plan);
   const StepGraph graph = predicted_graph();
   mail_.begin_epoch(model_, epoch);
+  if (recorder_) recorder_->plan(model_, graph, epoch);
+  phases_.enter(Phase::work);
   const std::optional<RunError> error = attempt(graph, epoch);
-  if (const std::optional<RunError> first = first_failure(transport_, error)) throw RunError(*first);
+  phases_.enter(Phase::agree);
+  const std::optional<RunError> first = first_failure(transport_, error);
+  if (first && recorder_) recorder_->flush();
+  if (first) throw RunError(*first);
+  phases_.enter(Phase::balance);
   load_.merge(last_);
   mail_.close_epoch();
   rounds_ += epoch.rounds;
-  balance_.note(model_, epoch, last_, mail_.sent());
+  const std::vector<Mail::Sent> sent = mail_.sent();
+  balance_.note(model_, epoch, last_, sent);
+  if (recorder_) recorder_->sent(sent);
 }
 
 /// The failure of this rank, if it failed. If another did, this one stops as well.
 std::optional<RunError> Simulation::attempt(const StepGraph& graph, const Epoch& epoch) {
   try {
+    TaskObserver* observer = recorder_ && recorder_->recording() ? &*recorder_ : nullptr;
     last_ = executor_.run(
-        graph, epoch, [&](Task task, int) { run_task(graph, epoch, task); }, hooks_.observer,
-        [&](std::vector<Task>& arrived) { mail_.poll(graph, arrived); });
+        graph, epoch, [&](Task task, int worker) { run_task(graph, epoch, task, worker); }, observer,
+        [&](std::vector<Arrival>& arrived) { mail_.poll(graph, arrived); });
   } catch (const RunError& error) {
     tell_others();
     Failure failure = error.failure();
@@ -107,12 +174,19 @@ StepGraph Simulation::predicted_graph() {
   return graph;
 }
 
-void Simulation::run_task(const StepGraph& graph, const Epoch& epoch, Task task) {
+void Simulation::run_task(const StepGraph& graph, const Epoch& epoch, Task task, int worker) {
   const SubModelId id = graph.sub_model(task.node);
   const int stage = graph.stage(task.node);
   Port& port = mail_.open(id, stage, task.round);
   model_.sub_model(id).run(stage, epoch.round(task.round), port);
-  mail_.close(id);
+  const Mail::Carried carried = mail_.close(id);
+  if (recorder_ && recorder_->recording()) note_task(id, worker, carried);
+}
+
+void Simulation::note_task(SubModelId id, int worker, const Mail::Carried& carried) {
+  Recorder::Carried what{carried};
+  model_.sub_model(id).count(what.counters);
+  recorder_->carried(worker, what);
 }
 
 void Simulation::tell_others() {

@@ -11,6 +11,8 @@
 #include "runtime/migrate/checkpoint.hpp"
 #include "runtime/schedule/executor.hpp"
 #include "runtime/sub_model.hpp"
+#include "runtime/trace/phases.hpp"
+#include "runtime/trace/recorder.hpp"
 #include "runtime/transport/mail.hpp"
 
 namespace moraine::runtime {
@@ -24,6 +26,7 @@ struct Options {
   Transport* transport = nullptr;    ///< must outlive the simulation; none: this process is alone
   BalanceOptions balance = {};
   CheckpointOptions checkpoint = {};
+  TraceOptions trace = {};
   /// The exit status that goes with what a task threw.
   std::function<int(const std::exception_ptr&)> status_of = [](const std::exception_ptr&) { return 1; };
 };
@@ -34,7 +37,6 @@ struct Hooks {
   std::function<std::int64_t(std::int64_t next_round)> until_next_stop;
   /// All rounds before `next_round` are done and nothing runs.
   std::function<void(std::int64_t next_round)> at_epoch_end;
-  TaskObserver* observer = nullptr;
 };
 
 class Simulation {
@@ -56,6 +58,8 @@ class Simulation {
   Transport& transport() const { return transport_; }
   /// Of this rank, of all rounds so far. What happens between epochs is not in it.
   const LoadRecord& load() const { return load_; }
+  /// Of this rank: what its time went to, in run().
+  const PhaseSeconds& phase_seconds() const { return phases_.seconds(); }
   const Rebalance& balance() const { return balance_; }
   /// Of this rank.
   const Mail::Totals& messages() const { return mail_.totals(); }
@@ -70,14 +74,19 @@ class Simulation {
   void settle(std::int64_t next_round);
   StepGraph predicted_graph();
   void run_epoch(const Epoch& epoch);
+  void end_epoch(const Epoch& epoch);
+  TraceSettings trace_settings() const;
   std::optional<RunError> attempt(const StepGraph& graph, const Epoch& epoch);
-  void run_task(const StepGraph& graph, const Epoch& epoch, Task task);
+  void run_task(const StepGraph& graph, const Epoch& epoch, Task task, int worker);
+  void note_task(SubModelId id, int worker, const Mail::Carried& carried);
   void tell_others();
 
   Model& model_;
   Options options_;
   Hooks hooks_;
   Transport& transport_;
+  RunClock clock_;
+  Phases phases_;
   Executor executor_;
   Mail mail_;
   Rebalance balance_;
@@ -85,6 +94,7 @@ class Simulation {
   std::int64_t rounds_ = 0;
   LoadRecord load_;
   LoadRecord last_;  ///< the last epoch's
+  std::optional<Recorder> recorder_;
 };
 
 /// Cores that each of the ranks on this machine may use without taking turns; at least 1. Collective.

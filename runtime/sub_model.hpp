@@ -54,6 +54,8 @@ class SubModel {
   virtual void run(int stage, const Round& round, Port& port) = 0;
   /// Work of a stage in the last round, counted not clocked: predictions made from it are the same everywhere.
   virtual double counted_work(int stage) const = 0;
+  /// What a trace tells of each task: one number for each of the model's counters.
+  virtual void count(std::span<std::uint32_t>) const {}
   /// Bytes that it takes, about: what moving it costs follows.
   virtual double memory() const { return 0; }
   /// Exact, between being settled for an epoch and its first round.
@@ -86,6 +88,8 @@ class Model {
   /// Called between epochs while nothing runs, on all ranks: settles neighbours, may move work between sub-models. At
   /// least 1 and at most `at_most` rounds. Must not depend on threads, ranks or time.
   virtual EpochPlan begin_epoch(std::int64_t next_round, std::int64_t at_most) = 0;
+  /// Names of what SubModel::count() counts, at most TaskRecord::max_counters.
+  virtual std::span<const std::string_view> counters() const { return {}; }
   /// What is known of all sub-models together, the same on every rank. For checkpoints.
   virtual void save_common(std::vector<std::byte>&) const {}
   virtual void load_common(std::span<const std::byte>) {}

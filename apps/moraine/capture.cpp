@@ -78,11 +78,11 @@ Frame::Bodies capture_ghosts(const CoupledModel& model, runtime::Transport& tran
 Summary::Balance summarise(const runtime::Rebalance& balance, runtime::Transport& transport, int substeps) {
   Summary::Balance out;
   double seconds = 0;
-  for (const runtime::BalanceRecord& r : balance.records()) {
+  for (const runtime::BalanceRoundRecord& r : balance.records()) {
     seconds += r.seconds;
     out.moved_bytes += r.moved_bytes;
-    out.rounds.push_back({r.round / substeps, r.imbalance, r.decision.after.imbalance, r.decision.gain_seconds,
-                          r.decision.cost_seconds, r.carried_out ? r.decision.moves : 0, r.moved_bytes});
+    out.rounds.push_back({r.round / substeps, r.imbalance, r.forecast_after, r.gain_seconds, r.cost_seconds,
+                          r.carried_out ? r.moves : 0, r.moved_bytes});
   }
   for (const double other : over_ranks(transport, seconds)) out.seconds = std::max(out.seconds, other);
   return out;

@@ -35,6 +35,8 @@ constexpr std::array table{
     Row{"--balance-every", "run.balance_every", "steps from one balance to the next, at least"},
     Row{"--checkpoint-every", "run.checkpoint_every", "steps from one checkpoint to the next, at least; 0: none"},
     Row{"--restart", "run.restart", "go on from a checkpoint: its folder, or 'latest' of --out"},
+    Row{"--trace", "run.trace", "write what ran where and when: .json for Perfetto, else compact"},
+    Row{"--trace-window", "run.trace_window", "FROM:TO[:EVERY]: trace these steps only, every so many epochs"},
     Row{"--output-every", "output.every", "steps between frames; 0: first and last only"},
 };
 

@@ -65,8 +65,7 @@ class Run {
         model_(scene, transport),
         simulation_(model_, options(scene, transport),
                     {.until_next_stop = [this](std::int64_t round) { return until_next_frame(round); },
-                     .at_epoch_end = [this](std::int64_t round) { epoch_done(round); },
-                     .observer = nullptr}),
+                     .at_epoch_end = [this](std::int64_t round) { epoch_done(round); }}),
         first_round_(scene.run.restart.empty() ? 0 : simulation_.restore(restart_folder(scene))),
         progress_(scene, scene.output.quiet || !writes(), first_round_ / scene.time.substeps) {
     if (writes()) writer_.emplace(scene, folder_of(scene));
@@ -97,6 +96,12 @@ class Run {
     o.checkpoint.folder = checkpoint_folder(scene);
     o.checkpoint.every = run.checkpoint_every * substeps;
     o.checkpoint.run = identity(scene);
+    o.trace = {.file = run.trace,
+               .from = run.trace_window.from,
+               .to = run.trace_window.to,
+               .every = run.trace_window.every,
+               .title = scene.name,
+               .rounds_per_step = substeps};
     o.status_of = status_of;
     return o;
   }
@@ -154,6 +159,15 @@ void check_folder(const std::filesystem::path& folder) {
   std::filesystem::remove(probe, error);
 }
 
+/// The same for the trace.
+void check_trace(const std::filesystem::path& file) {
+  if (file.empty()) return;
+  const bool there = std::filesystem::exists(file);
+  if (!std::ofstream(file, std::ios::app))
+    throw InputError(fmt::format("{}: cannot write there, expected a file for the trace (--trace)", file.string()));
+  if (!there) std::filesystem::remove(file);
+}
+
 std::string resume_note(const Scene& scene) {
   return fmt::format("moraine: stopped; to go on from the last checkpoint in {}, add --restart latest\n",
                      checkpoint_folder(scene).string());
@@ -175,6 +189,7 @@ Summary run_all(const Scene& scene, runtime::Transport& transport) {
 int run(const Scene& scene, runtime::Transport& transport) {
   const bool first = transport.rank() == 0;
   if (first) check_folder(folder_of(scene));
+  if (first) check_trace(scene.run.trace);
   if (first)
     for (const std::string& warning : scene.warnings) std::cerr << "moraine: warning: " << warning << '\n';
   if (transport.ranks() > 1 && !scene.output.quiet) print_layout(scene, transport);

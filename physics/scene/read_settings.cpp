@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cinttypes>
 #include <cmath>
+#include <cstdio>
 
 #include "physics/scene/draft.hpp"
 
@@ -53,6 +55,18 @@ int read_sub_models(const Node& node) {
   return static_cast<int>(found->integer(1, most));
 }
 
+/// "FROM:TO" or "FROM:TO:EVERY".
+RunSettings::TraceWindow read_window(const Node& node) {
+  RunSettings::TraceWindow w;
+  const std::string text = node.text();
+  int used = 0;
+  const int found =
+      std::sscanf(text.c_str(), "%" SCNd64 ":%" SCNd64 "%n:%" SCNd64 "%n", &w.from, &w.to, &used, &w.every, &used);
+  if (found < 2 || used != static_cast<int>(text.size()) || w.from < 0 || w.to <= w.from || w.every < 1)
+    node.fail(fmt::format("'{}' is no window of steps, expected FROM:TO or FROM:TO:EVERY with 0 <= FROM < TO", text));
+  return w;
+}
+
 }  // namespace
 
 void read_time(const Node& root, TimeSettings& time) {
@@ -67,9 +81,16 @@ void read_time(const Node& root, TimeSettings& time) {
 void read_run(const Node& root, RunSettings& run) {
   const auto node = root.find("run");
   if (!node) return;
-  node->allow({"engine", "engine_profile", "sub_models", "split", "coupling", "coupling_leak", "skin",
-               "recut_ghost_share", "iterations", "overlap_recovery", "scheduler", "threads", "balancer",
-               "balance_every", "balance_by", "checkpoint_every", "restart", "max_speed"});
+  node->allow({"engine",       "engine_profile",
+               "sub_models",   "split",
+               "coupling",     "coupling_leak",
+               "skin",         "recut_ghost_share",
+               "iterations",   "overlap_recovery",
+               "scheduler",    "threads",
+               "balancer",     "balance_every",
+               "balance_by",   "checkpoint_every",
+               "restart",      "trace",
+               "trace_window", "max_speed"});
   run.engine = node->text("engine", run.engine);
   run.engine_profile = node->text("engine_profile", run.engine_profile);
   run.sub_models = read_sub_models(*node);
@@ -87,6 +108,8 @@ void read_run(const Node& root, RunSettings& run) {
   run.balance_measured = read_measured(*node);
   run.checkpoint_every = read_int(*node, "checkpoint_every", run.checkpoint_every, 0);
   run.restart = node->text("restart", run.restart);
+  run.trace = node->text("trace", run.trace);
+  if (const auto window = node->find("trace_window")) run.trace_window = read_window(*window);
   run.max_speed = node->not_negative("max_speed", run.max_speed);
 }
 

@@ -38,7 +38,13 @@ struct RunSettings {
   bool balance_measured = true;     ///< by measured time; else by counted work: the same plans every time
   int checkpoint_every = 0;         ///< steps from one checkpoint to the next, at least; 0: none
   std::string restart;              ///< folder of a checkpoint, or "latest"; empty: from the start
-  double max_speed = 0;             ///< runaway limit [m/s]; 0: from the scene's energy
+  std::string trace;                ///< file of what ran where and when; empty: none
+  struct TraceWindow {
+    std::int64_t from = 0;   ///< steps from .. to - 1
+    std::int64_t to = -1;    ///< -1: to the end
+    std::int64_t every = 1;  ///< of the epochs in there, every so many
+  } trace_window;
+  double max_speed = 0;  ///< runaway limit [m/s]; 0: from the scene's energy
 };
 
 struct OutputSettings {

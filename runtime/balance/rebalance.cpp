@@ -80,23 +80,33 @@ void Rebalance::note(Model& model, const Epoch& epoch, const LoadRecord& load, c
 }
 
 void Rebalance::settle(Model& model, std::int64_t next_round) {
+  last_moves_.clear();
   if (transport_.ranks() == 1 || costs_.empty() || next_round < last_round_ + options_.every) return;
   const Clock::time_point begin = Clock::now();
   last_round_ = next_round;
   const Collected all = collect(model);
-  BalanceRecord record;
-  record.round = next_round;
-  record.imbalance = measured_imbalance(all.costs, model.placement().owner);
-  record.decision = decide(problem(all, model.placement().owner), *balancer_, row_.forced);
-  record.carried_out = record.decision.worthwhile;
+  const BalanceDecision decision = decide(problem(all, model.placement().owner), *balancer_, row_.forced);
+  BalanceRoundRecord record{.round = next_round,
+                            .carried_out = decision.worthwhile,
+                            .imbalance = measured_imbalance(all.costs, model.placement().owner),
+                            .forecast_before = decision.before.imbalance,
+                            .forecast_after = decision.after.imbalance,
+                            .gain_seconds = decision.gain_seconds,
+                            .cost_seconds = decision.cost_seconds,
+                            .moves = decision.moves};
   ++turn_;
-  if (record.carried_out) {
-    const Moved moved = move(model, transport_, record.decision.plan);
-    for (const double bytes : collected(transport_, std::vector{static_cast<double>(moved.bytes)}))
-      record.moved_bytes += bytes;
-  }
+  if (decision.worthwhile) carry_out(model, decision.plan, record);
   record.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  records_.push_back(std::move(record));
+  records_.push_back(record);
+}
+
+void Rebalance::carry_out(Model& model, const Owners& plan, BalanceRoundRecord& record) {
+  const std::vector<int>& owner = model.placement().owner;
+  for (SubModelId id = 0; id < plan.size(); ++id)
+    if (plan[id] != owner[id]) last_moves_.push_back({0, id, owner[id], plan[id]});
+  const Moved moved = move(model, transport_, plan);
+  for (const double bytes : collected(transport_, std::vector{static_cast<double>(moved.bytes)}))
+    record.moved_bytes += bytes;
 }
 
 Rebalance::Collected Rebalance::collect(Model& model) {
@@ -112,11 +122,9 @@ Rebalance::Collected Rebalance::collect(Model& model) {
   return all;
 }
 
-double Rebalance::measured_imbalance(const std::vector<Cost>& costs, const std::vector<int>& owner) {
+double Rebalance::measured_imbalance(const std::vector<Cost>& costs, const std::vector<int>& owner) const {
   std::vector<double> busy(static_cast<std::size_t>(transport_.ranks()), 0.0);
   for (const Cost& c : costs) busy[static_cast<std::size_t>(owner[c.id])] += c.seconds;
-  busy_.resize(busy.size());
-  for (std::size_t rank = 0; rank < busy.size(); ++rank) busy_[rank] += busy[rank];
   const double sum = std::accumulate(busy.begin(), busy.end(), 0.0);
   return sum > 0 ? *std::max_element(busy.begin(), busy.end()) * static_cast<double>(busy.size()) / sum : 1.0;
 }
@@ -137,7 +145,7 @@ BalanceProblem Rebalance::problem(const Collected& all, const std::vector<int>& 
 
 std::int64_t Rebalance::migrations() const {
   std::int64_t sum = 0;
-  for (const BalanceRecord& r : records_) sum += r.carried_out ? r.decision.moves : 0;
+  for (const BalanceRoundRecord& r : records_) sum += r.carried_out ? r.moves : 0;
   return sum;
 }
 

@@ -11,6 +11,7 @@
 #include "runtime/balance/registry.hpp"
 #include "runtime/epoch.hpp"
 #include "runtime/trace/load.hpp"
+#include "runtime/trace/trace.hpp"
 #include "runtime/transport/mail.hpp"
 
 namespace moraine::runtime {
@@ -21,16 +22,6 @@ struct BalanceOptions {
   std::int64_t every = 1;            ///< rounds from one balance to the next, at least
   bool measured = false;             ///< load is busy time, not counted work: plans then differ from run to run
   BalancerOptions more;
-};
-
-/// One balance step. All ranks have the same, but for the time it took.
-struct BalanceRecord {
-  std::int64_t round = 0;  ///< the first under the new owners
-  double imbalance = 1;    ///< max/mean busy seconds of ranks since the balance before
-  bool carried_out = false;
-  BalanceDecision decision;
-  double moved_bytes = 0;  ///< by all ranks
-  double seconds = 0;      ///< on this rank: collecting, planning, moving
 };
 
 class Rebalance {
@@ -44,10 +35,11 @@ class Rebalance {
   /// the last balance is not long enough ago. Cost: one exchange of a record per sub-model and neighbour pair.
   void settle(Model& model, std::int64_t next_round);
 
-  const std::vector<BalanceRecord>& records() const { return records_; }
+  /// All ranks have the same, but for the time it took. Their epoch is not filled in.
+  const std::vector<BalanceRoundRecord>& records() const { return records_; }
+  /// Of the last settle(); none if it did nothing.
+  const std::vector<MoveRecord>& last_moves() const { return last_moves_; }
   std::int64_t migrations() const;
-  /// Busy seconds by rank since the start, as far as collected.
-  const std::vector<double>& busy() const { return busy_; }
 
   /// For checkpoints: all that plans depend on. The same on every rank.
   void save(std::vector<std::byte>& out) const;
@@ -70,7 +62,8 @@ class Rebalance {
   };
 
   Collected collect(Model& model);
-  double measured_imbalance(const std::vector<Cost>& costs, const std::vector<int>& owner);
+  double measured_imbalance(const std::vector<Cost>& costs, const std::vector<int>& owner) const;
+  void carry_out(Model& model, const Owners& plan, BalanceRoundRecord& record);
   BalanceProblem problem(const Collected& all, const std::vector<int>& owner) const;
 
   BalanceOptions options_;
@@ -83,8 +76,8 @@ class Rebalance {
   double rounds_ = 0;             ///< since the last collection
   std::vector<LoadHistory> histories_;
   std::int64_t last_round_ = 0, turn_ = 0;
-  std::vector<double> busy_;
-  std::vector<BalanceRecord> records_;
+  std::vector<BalanceRoundRecord> records_;
+  std::vector<MoveRecord> last_moves_;
 };
 
 }  // namespace moraine::runtime

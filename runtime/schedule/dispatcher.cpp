@@ -12,50 +12,55 @@ Dispatcher::Dispatcher(Scheduler& scheduler, const StepGraph& graph, int workers
       graph_(graph),
       rounds_(rounds),
       awaited_{graph.opening_predecessors, graph.predecessors},
+      released_{std::vector<Released>(graph.node_count()), std::vector<Released>(graph.node_count())},
       idle_(static_cast<std::size_t>(workers), true),
       unfinished_(static_cast<std::int64_t>(graph.node_count()) * rounds) {
   if (workers < 1) throw std::invalid_argument("a machine needs at least one worker");
 }
 
-void Dispatcher::start(std::vector<Assignment>& out) {
+void Dispatcher::start(std::vector<Assignment>& out, double now) {
   if (done()) return;
   scheduler_.begin(graph_, static_cast<int>(idle_.size()), rounds_);
   for (NodeId node = 0; node < graph_.node_count(); ++node)
-    if (awaited_[0][node] == 0) release({node, 0}, Scheduler::nobody);
+    if (awaited_[0][node] == 0) release({node, 0}, Scheduler::nobody, {.sent = now, .ready = now});
   offer_all(out);
   check_progress();
 }
 
-void Dispatcher::finish(Task task, int worker, std::vector<Assignment>& out) {
+void Dispatcher::finish(Task task, int worker, std::vector<Assignment>& out, double now) {
   --unfinished_;
   --running_;
   idle_[static_cast<std::size_t>(worker)] = true;
   if (stopped_) return;
   scheduler_.finished(task, worker);
-  release_successors(task, worker);
+  release_successors(task, worker, now);
   offer(worker, out);
   offer_all(out);
   check_progress();
 }
 
-void Dispatcher::arrived(Task task, std::vector<Assignment>& out) {
+void Dispatcher::arrived(Task task, std::vector<Assignment>& out, const Released& released) {
   if (stopped_) return;
-  count_down(task, Scheduler::nobody);
+  count_down(task, Scheduler::nobody, released);
   offer_all(out);
 }
 
-void Dispatcher::release_successors(Task task, int worker) {
-  for (const NodeId next : graph_.same_round.of(task.node)) count_down({next, task.round}, worker);
+void Dispatcher::release_successors(Task task, int worker, double now) {
+  Released released{
+      Release::task, false, static_cast<std::int16_t>(graph_.stage(task.node)), graph_.sub_model(task.node), now, now};
+  for (const NodeId next : graph_.same_round.of(task.node)) count_down({next, task.round}, worker, released);
   if (task.round + 1 == rounds_) return;
-  for (const NodeId next : graph_.next_round.of(task.node)) count_down({next, task.round + 1}, worker);
+  released.before = true;
+  for (const NodeId next : graph_.next_round.of(task.node)) count_down({next, task.round + 1}, worker, released);
 }
 
-void Dispatcher::count_down(Task task, int released_by) {
-  if (--awaited_[static_cast<std::size_t>(task.round & 1)][task.node] == 0) release(task, released_by);
+void Dispatcher::count_down(Task task, int released_by, const Released& released) {
+  if (--awaited_[static_cast<std::size_t>(task.round & 1)][task.node] == 0) release(task, released_by, released);
 }
 
-void Dispatcher::release(Task task, int released_by) {
+void Dispatcher::release(Task task, int released_by, const Released& released) {
   ++ready_;
+  released_[static_cast<std::size_t>(task.round & 1)][task.node] = released;
   scheduler_.ready(task, released_by);
 }
 
@@ -65,7 +70,7 @@ void Dispatcher::offer(int worker, std::vector<Assignment>& out) {
   if (!task) return;
   take(*task);
   idle_[static_cast<std::size_t>(worker)] = false;
-  out.push_back({*task, worker});
+  out.push_back({*task, worker, released_[static_cast<std::size_t>(task->round & 1)][task->node]});
 }
 
 void Dispatcher::offer_all(std::vector<Assignment>& out) {

@@ -5,6 +5,7 @@
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -21,10 +22,6 @@
 
 namespace moraine::runtime {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds(Clock::duration span) { return std::chrono::duration<double>(span).count(); }
 
 /// Without this, oneTBB would lend no more threads than cores. It is set once and for all: after a change of the limit
 /// oneTBB 2021.8 may leave the next arena without threads.
@@ -45,7 +42,8 @@ class Executor::Run {
  public:
   Run(Executor& owner, const StepGraph& graph, const Epoch& epoch, const Work& work, TaskObserver* observer,
       const Poll& poll)
-      : graph_(graph),
+      : clock_(owner.clock_),
+        graph_(graph),
         epoch_(epoch),
         work_(work),
         observer_(observer),
@@ -53,17 +51,20 @@ class Executor::Run {
         dispatcher_(*owner.scheduler_, graph, owner.workers_, epoch.rounds_with_opening()),
         load_(graph, owner.workers_),
         in_hand_(static_cast<std::size_t>(owner.workers_)),
+        idle_since_(static_cast<std::size_t>(owner.workers_), clock_.now()),
         present_(static_cast<std::size_t>(owner.workers_), false) {}
 
   /// Called inside the arena.
   void all() {
-    const Clock::time_point begin = Clock::now();
-    start();
+    const double begin = clock_.now();
+    start(begin);
     for (int worker = 1; worker < static_cast<int>(in_hand_.size()); ++worker)
       group_.run([this, worker] { serve(worker); });
     serve(0);
     group_.wait();
-    load_.elapsed = seconds(Clock::now() - begin);
+    const double end = clock_.now(), last = *std::max_element(idle_since_.begin(), idle_since_.end());
+    for (std::size_t w = 0; w < idle_since_.size(); ++w) load_.waits[w] += wait_after(idle_since_[w], last, end);
+    load_.elapsed = end - begin;
   }
 
   LoadRecord result() {
@@ -77,19 +78,27 @@ class Executor::Run {
   }
 
  private:
+  /// A task from being assigned until it starts.
+  struct InHand {
+    Task task;
+    Released released;
+    double handed = 0;
+  };
+
   /// A task that was run.
   struct Ended {
-    Task task;
+    InHand given;
     int worker;
-    Clock::time_point begin;
-    Clock::time_point end;
+    double start;
+    double end;
     std::exception_ptr error;
   };
 
-  void start() {
+  void start(double now) {
     const std::lock_guard lock(mutex_);
-    dispatcher_.start(starting_);
-    hand_out();
+    std::fill(idle_since_.begin(), idle_since_.end(), now);
+    dispatcher_.start(starting_, now);
+    hand_out(now);
   }
 
   /// A thread that oneTBB lends does a worker's tasks until all are done. Workers for which no thread has come yet are
@@ -123,22 +132,22 @@ class Executor::Run {
 
   /// Does the work unlocked.
   void run(int worker, std::unique_lock<std::mutex>& lock) {
-    const Task task = *std::exchange(in_hand_[static_cast<std::size_t>(worker)], std::nullopt);
+    const InHand given = *std::exchange(in_hand_[static_cast<std::size_t>(worker)], std::nullopt);
     lock.unlock();
-    const Ended ended = attempt(task, worker);
+    const Ended ended = attempt(given, worker);
+    if (observer_ && !ended.error) observer_->task_done(record_of(ended));
     lock.lock();
-    record(ended);
+    account(ended);
     dispatch(ended);
+    hand_out(ended.end);
     if (!watched_) receive();
-    hand_out();
   }
 
   /// One thread without a task looks for messages, until it gets a task or all is over.
   void watch(int worker, std::unique_lock<std::mutex>& lock) {
     watched_ = true;
     for (int vain = 0;; ++vain) {
-      receive();
-      if (hand_out()) vain = 0;
+      if (receive()) vain = 0;
       if (over() || next_in_hand(worker)) break;
       lock.unlock();
       rest(vain);
@@ -157,9 +166,9 @@ class Executor::Run {
       std::this_thread::sleep_for(std::chrono::microseconds(20));
   }
 
-  /// What messages from elsewhere release.
-  void receive() {
-    if (!poll_) return;
+  /// What messages from elsewhere release. True if anything starts.
+  bool receive() {
+    if (!poll_) return false;
     arrived_.clear();
     try {
       poll_(arrived_);
@@ -167,35 +176,64 @@ class Executor::Run {
       dispatcher_.stop();
       if (!elsewhere_) elsewhere_ = std::current_exception();
     }
-    for (const Task task : arrived_) dispatcher_.arrived(task, starting_);
+    if (arrived_.empty()) return false;
+    const double now = clock_.now();
+    for (const Arrival& a : arrived_) dispatcher_.arrived(a.task, starting_, released_by(a, now));
+    return hand_out(now);
+  }
+
+  Released released_by(const Arrival& a, double now) const {
+    const bool before = a.sent_in >= graph_.stage(a.task.node);
+    return {Release::message, before, static_cast<std::int16_t>(a.sent_in), a.from, a.sent_at, now};
   }
 
   /// Puts what starts in the hands of workers. True if anything starts.
-  bool hand_out() {
+  bool hand_out(double now) {
     if (starting_.empty()) return false;
-    for (const Assignment& a : starting_) in_hand_[static_cast<std::size_t>(a.worker)] = a.task;
+    for (const Assignment& a : starting_) in_hand_[static_cast<std::size_t>(a.worker)] = {a.task, a.released, now};
     starting_.clear();
     changed_.notify_all();
     return true;
   }
 
-  Ended attempt(Task task, int worker) const {
-    Ended ended{task, worker, Clock::now(), {}, nullptr};
+  Ended attempt(const InHand& given, int worker) const {
+    Ended ended{given, worker, clock_.now(), 0, nullptr};
     try {
-      work_(task, worker);
+      work_(given.task, worker);
     } catch (...) {
       ended.error = std::current_exception();
     }
-    ended.end = Clock::now();
+    ended.end = clock_.now();
     return ended;
   }
 
-  void record(const Ended& e) {
-    if (e.error) return keep_first(e.task, e.error);
-    load_.add(graph_, e.task, e.worker, seconds(e.end - e.begin));
-    if (observer_)
-      observer_->task_done(
-          {graph_.stage(e.task.node), graph_.sub_model(e.task.node), round(e.task), e.worker, e.begin, e.end});
+  void account(const Ended& e) {
+    if (e.error) return keep_first(e.given.task, e.error);
+    load_.add(graph_, e.given.task, e.worker, e.end - e.start);
+    double& idle_since = idle_since_[static_cast<std::size_t>(e.worker)];
+    load_.waits[static_cast<std::size_t>(e.worker)] +=
+        wait_before(idle_since, e.given.released, e.given.handed, e.start);
+    idle_since = e.end;
+  }
+
+  TaskRecord record_of(const Ended& e) const {
+    const Released& by = e.given.released;
+    TaskRecord r;
+    r.start = e.start;
+    r.end = e.end;
+    r.sent = by.sent;
+    r.ready = by.ready;
+    r.handed = e.given.handed;
+    r.round = round(e.given.task).number;
+    r.in_epoch = static_cast<std::int32_t>(e.given.task.round);
+    r.sub_model = graph_.sub_model(e.given.task.node);
+    r.released_by = by.sub_model;
+    r.worker = static_cast<std::int16_t>(e.worker);
+    r.stage = static_cast<std::int16_t>(graph_.stage(e.given.task.node));
+    r.released_stage = by.stage;
+    r.release = by.by;
+    r.released_before = by.before;
+    return r;
   }
 
   void keep_first(Task task, const std::exception_ptr& error) {
@@ -208,7 +246,7 @@ class Executor::Run {
   /// An error of the policy must not leave a oneTBB task.
   void dispatch(const Ended& ended) {
     try {
-      dispatcher_.finish(ended.task, ended.worker, starting_);
+      dispatcher_.finish(ended.given.task, ended.worker, starting_, ended.end);
     } catch (...) {
       dispatcher_.stop();
       starting_.clear();
@@ -227,6 +265,7 @@ class Executor::Run {
     return graph_.stages[static_cast<std::size_t>(graph_.stage(task.node))];
   }
 
+  const RunClock clock_;
   const StepGraph& graph_;
   const Epoch epoch_;
   const Work& work_;
@@ -236,21 +275,22 @@ class Executor::Run {
   std::mutex mutex_;
   Dispatcher dispatcher_;
   LoadRecord load_;
-  std::vector<std::optional<Task>> in_hand_;  ///< per worker, from being assigned until it starts
-  std::vector<bool> present_;                 ///< per worker: a thread has come for it
-  std::condition_variable changed_;           ///< a task is in hand, nobody watches, or all is over
-  bool watched_ = false;                      ///< a thread looks for messages
-  std::vector<Assignment> starting_;          ///< buffer
-  std::vector<Task> arrived_;                 ///< buffer
-  std::exception_ptr elsewhere_;              ///< what looking for messages threw
-  std::exception_ptr broken_;                 ///< the policy's
-  std::exception_ptr failed_;                 ///< the first failed task's
+  std::vector<std::optional<InHand>> in_hand_;  ///< per worker
+  std::vector<double> idle_since_;              ///< per worker
+  std::vector<bool> present_;                   ///< per worker: a thread has come for it
+  std::condition_variable changed_;             ///< a task is in hand, nobody watches, or all is over
+  bool watched_ = false;                        ///< a thread looks for messages
+  std::vector<Assignment> starting_;            ///< buffer
+  std::vector<Arrival> arrived_;                ///< buffer
+  std::exception_ptr elsewhere_;                ///< what looking for messages threw
+  std::exception_ptr broken_;                   ///< the policy's
+  std::exception_ptr failed_;                   ///< the first failed task's
   Task first_failed_;
   tbb::task_group group_;
 };
 
-Executor::Executor(int workers, std::unique_ptr<Scheduler> scheduler)
-    : workers_(workers), scheduler_(std::move(scheduler)) {
+Executor::Executor(int workers, std::unique_ptr<Scheduler> scheduler, RunClock clock)
+    : workers_(workers), clock_(clock), scheduler_(std::move(scheduler)) {
   if (workers < 1) throw std::invalid_argument("an executor needs at least one worker");
   threads_ = std::make_unique<Threads>(workers);
 }

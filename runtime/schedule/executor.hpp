@@ -7,8 +7,10 @@
 
 #include "runtime/epoch.hpp"
 #include "runtime/schedule/scheduler.hpp"
+#include "runtime/trace/clock.hpp"
 #include "runtime/trace/load.hpp"
 #include "runtime/trace/observer.hpp"
+#include "runtime/transport/mail.hpp"
 
 namespace moraine::runtime {
 
@@ -19,10 +21,10 @@ class Executor {
   using Work = std::function<void(Task task, int worker)>;
   /// Looks whether messages have come from elsewhere and appends the tasks they are for. Called by one thread at a
   /// time, often. What it throws ends the run.
-  using Poll = std::function<void(std::vector<Task>& arrived)>;
+  using Poll = std::function<void(std::vector<Arrival>& arrived)>;
 
-  /// Errors: std::invalid_argument if workers < 1.
-  Executor(int workers, std::unique_ptr<Scheduler> scheduler);
+  /// `clock`: what times are told by. Errors: std::invalid_argument if workers < 1.
+  Executor(int workers, std::unique_ptr<Scheduler> scheduler, RunClock clock = {});
   ~Executor();
 
   int workers() const { return workers_; }
@@ -40,6 +42,7 @@ class Executor {
   struct Threads;
 
   int workers_;
+  RunClock clock_;
   std::unique_ptr<Scheduler> scheduler_;
   std::unique_ptr<Threads> threads_;
 };

@@ -20,6 +20,7 @@ void merge_lists(std::vector<Busy>& into, const std::vector<Busy>& from) {
 
 LoadRecord::LoadRecord(const StepGraph& graph, int worker_count)
     : workers(static_cast<std::size_t>(worker_count)),
+      waits(static_cast<std::size_t>(worker_count)),
       stages(graph.stages.size()),
       nodes(graph.ids.empty() ? 0 : (graph.ids.back() + 1) * graph.stages.size()) {}
 
@@ -33,6 +34,8 @@ void LoadRecord::add(const StepGraph& graph, Task task, int worker, double secon
 void LoadRecord::merge(const LoadRecord& other) {
   elapsed += other.elapsed;
   merge_lists(workers, other.workers);
+  waits.resize(std::max(waits.size(), other.waits.size()));
+  for (std::size_t w = 0; w < other.waits.size(); ++w) waits[w] += other.waits[w];
   merge_lists(stages, other.stages);
   merge_lists(nodes, other.nodes);
 }
@@ -83,6 +86,7 @@ LoadRecord all_ranks(const LoadRecord& own, Transport& transport) {
   Bytes told;
   write_records(told, std::vector{own.elapsed});
   for (const auto* list : {&own.workers, &own.stages, &own.nodes}) write_records(told, *list);
+  write_records(told, own.waits);
   LoadRecord all;
   for (const Bytes& bytes : all_gather(transport, told)) {
     std::span<const std::byte> in(bytes);
@@ -91,6 +95,8 @@ LoadRecord all_ranks(const LoadRecord& own, Transport& transport) {
     all.workers.insert(all.workers.end(), workers.begin(), workers.end());
     merge_lists(all.stages, read_records<Busy>(in));
     merge_lists(all.nodes, read_records<Busy>(in));
+    const auto waits = read_records<Wait>(in);
+    all.waits.insert(all.waits.end(), waits.begin(), waits.end());
   }
   return all;
 }

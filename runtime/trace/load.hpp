@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/step_graph.hpp"
+#include "runtime/trace/wait.hpp"
 #include "runtime/transport/transport.hpp"
 
 namespace moraine::runtime {
@@ -20,10 +21,11 @@ struct Busy {
   }
 };
 
-/// One or several epochs. A worker that is not busy waits: for a task, or for the scheduler.
+/// Work of one or several epochs. A worker that is not busy waits.
 struct LoadRecord {
   double elapsed = 0;  ///< seconds
   std::vector<Busy> workers;
+  std::vector<Wait> waits;  ///< per worker
   std::vector<Busy> stages;
   std::vector<Busy> nodes;  ///< by sub-model number * stages + stage, of those that ran here
 

@@ -2,26 +2,16 @@
 // Who wants to know what ran where and when.
 #pragma once
 
-#include <chrono>
-
-#include "runtime/sub_model.hpp"
+#include "runtime/trace/trace.hpp"
 
 namespace moraine::runtime {
-
-struct EndedTask {
-  int stage = 0;
-  SubModelId sub_model = 0;
-  Round round;
-  int worker = 0;
-  std::chrono::steady_clock::time_point start;
-  std::chrono::steady_clock::time_point end;
-};
 
 class TaskObserver {
  public:
   virtual ~TaskObserver() = default;
-  /// Called once for every task that ended well, from its thread, one call at a time. All workers wait meanwhile.
-  virtual void task_done(const EndedTask& record) = 0;
+  /// Called for every task that ended well, from the thread that ran it. Calls for one worker never overlap; those for
+  /// different workers do. Epoch, rank, bytes and counters are not filled in.
+  virtual void task_done(const TaskRecord& record) = 0;
 };
 
 }  // namespace moraine::runtime

@@ -112,6 +112,7 @@ struct BalanceRoundRecord {
   double cost_seconds = 0;     ///< forecast
   std::int64_t moves = 0;      ///< proposed
   double moved_bytes = 0;      ///< by all ranks
+  double seconds = 0;          ///< on this rank: collecting, planning, moving
 };
 
 /// A sub-model changed ranks before an epoch.

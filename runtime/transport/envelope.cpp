@@ -13,7 +13,7 @@ enum class Kind : std::uint32_t { message, failure };
 
 /// What stands before the content. Ranks of one run are of one machine kind and one program.
 struct Head {
-  std::uint32_t version = 1;
+  std::uint32_t version = 2;
   Kind kind = Kind::message;
   std::uint64_t length = 0;
   std::uint64_t checksum = 0;  ///< of the content
@@ -23,6 +23,7 @@ struct Head {
   std::uint32_t unused = 0;
   std::int64_t round = 0;
   std::int64_t epoch = 0;
+  double sent_at = 0;
 };
 
 Bytes join(const Head& head, std::span<const std::byte> content) {
@@ -38,7 +39,7 @@ Bytes join(const Head& head, std::span<const std::byte> content) {
 
 }  // namespace
 
-Bytes pack(const Envelope& e, std::span<const std::byte> content) {
+Bytes pack(const Envelope& e, double sent_at, std::span<const std::byte> content) {
   Head head;
   head.length = content.size();
   head.checksum = XXH3_64bits(content.data(), content.size());
@@ -47,6 +48,7 @@ Bytes pack(const Envelope& e, std::span<const std::byte> content) {
   head.to = e.to;
   head.round = e.round;
   head.epoch = e.epoch;
+  head.sent_at = sent_at;
   return join(head, content);
 }
 
@@ -65,7 +67,7 @@ Opened unpack(const Parcel& parcel) {
   const auto content = std::span(parcel.bytes).subspan(sizeof head);
   if (content.size() != head.length || XXH3_64bits(content.data(), content.size()) != head.checksum)
     refuse(parcel, "is damaged");
-  return {{head.stage, head.from, head.to, head.round, head.epoch}, content};
+  return {{head.stage, head.from, head.to, head.round, head.epoch}, head.sent_at, content};
 }
 
 }  // namespace moraine::runtime

@@ -27,11 +27,13 @@ class FailedElsewhere : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-Bytes pack(const Envelope& envelope, std::span<const std::byte> content);
+/// `sent_at`: when it leaves, on the run's clock.
+Bytes pack(const Envelope& envelope, double sent_at, std::span<const std::byte> content);
 Bytes pack_failure();
 
 struct Opened {
   Envelope envelope;
+  double sent_at = 0;
   std::span<const std::byte> content;  ///< inside the parcel
 };
 

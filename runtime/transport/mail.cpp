@@ -29,12 +29,16 @@ class Mail::Box final : public Port {
     for (std::size_t i = first(owner_.first_out_); i < last(owner_.first_out_); ++i) clear(line_out(i));
   }
 
-  void close() {
-    for (std::size_t i = first(owner_.first_out_); i < last(owner_.first_out_); ++i) owner_.post(line_out(i), round_);
+  Carried close() {
+    Carried carried;
+    for (std::size_t i = first(owner_.first_out_); i < last(owner_.first_out_); ++i)
+      carried.sent += owner_.post(line_out(i), round_);
     for (std::size_t i = first(owner_.first_in_); i < last(owner_.first_in_); ++i) {
+      if (!nothing_before()) carried.received += slot_in(i).bytes.size();
       if (owner_.poison_ && !nothing_before()) destroy(slot_in(i));
       owner_.was_read(owner_.in_[i], sent_round());
     }
+    return carried;
   }
 
   std::span<const std::byte> received(SubModelId from) const override {
@@ -94,7 +98,7 @@ class Mail::Box final : public Port {
   std::int64_t round_ = 0;
 };
 
-Mail::Mail(Transport& transport, bool poison) : transport_(transport), poison_(poison) {}
+Mail::Mail(Transport& transport, bool poison, RunClock clock) : transport_(transport), poison_(poison), clock_(clock) {}
 Mail::~Mail() = default;
 
 std::size_t Mail::node(SubModelId sub_model, int stage) const {
@@ -162,31 +166,36 @@ Port& Mail::open(SubModelId sub_model, int stage, std::int64_t round) {
   return *box_[sub_model];
 }
 
-void Mail::close(SubModelId sub_model) { box_[sub_model]->close(); }
+Mail::Carried Mail::close(SubModelId sub_model) { return box_[sub_model]->close(); }
 
-/// A message for the round after the last one has no reader.
-void Mail::post(Line& line, std::int64_t round) {
+/// A message for the round after the last one has no reader. Returns its length.
+std::uint64_t Mail::post(Line& line, std::int64_t round) {
   const Slot& slot = line.slots[parity(round)];
   ++line.messages;
   line.bytes += slot.bytes.size();
-  if (line.to_rank == transport_.rank() || (line.message.next_round() && round + 1 == rounds_)) return;
-  transport_.send(line.to_rank, pack(slot.envelope, slot.bytes));
+  const bool travels = line.to_rank != transport_.rank() && !(line.message.next_round() && round + 1 == rounds_);
+  if (travels) transport_.send(line.to_rank, pack(slot.envelope, clock_.now(), slot.bytes));
+  return slot.bytes.size();
 }
 
-void Mail::poll(const StepGraph& graph, std::vector<Task>& arrived) {
+void Mail::poll(const StepGraph& graph, std::vector<Arrival>& arrived) {
   while (const std::optional<Parcel> parcel = transport_.receive()) take_in(*parcel);
   const std::lock_guard lock(mutex_);
   for (const Ready& r : ready_)
-    arrived.push_back({graph.node(graph.place_of(r.message.to), r.message.read_in), r.round});
+    arrived.push_back({{graph.node(graph.place_of(r.message.to), r.message.read_in), r.round},
+                       r.message.from,
+                       r.message.sent_in,
+                       r.sent_at});
   ready_.clear();
 }
 
 void Mail::take_in(const Parcel& parcel) {
-  const auto [envelope, content] = unpack(parcel);
+  const auto [envelope, sent_at, content] = unpack(parcel);
   const std::size_t line = line_of(envelope);
   Slot slot;
   slot.envelope = envelope;
   slot.sent = true;
+  slot.sent_at = sent_at;
   slot.bytes.assign(content.begin(), content.end());
   const std::lock_guard lock(mutex_);
   arrivals_[line].waiting.push_back(std::move(slot));
@@ -210,9 +219,9 @@ void Mail::deliver(std::size_t line) {
     const std::int64_t round = next.envelope.round;
     if (arrivals.unread[parity(round)]) return;
     arrivals.unread[parity(round)] = true;
+    ready_.push_back({lines_[line].message, lines_[line].message.next_round() ? round + 1 : round, next.sent_at});
     lines_[line].slots[parity(round)] = std::move(next);
     arrivals.waiting.pop_front();
-    ready_.push_back({lines_[line].message, lines_[line].message.next_round() ? round + 1 : round});
   }
 }
 

@@ -10,19 +10,28 @@
 #include "runtime/epoch.hpp"
 #include "runtime/message_plan.hpp"
 #include "runtime/step_graph.hpp"
+#include "runtime/trace/clock.hpp"
 #include "runtime/transport/envelope.hpp"
 #include "runtime/transport/transport.hpp"
 
 namespace moraine::runtime {
+
+/// A message from another rank is there for a task.
+struct Arrival {
+  Task task;
+  SubModelId from = 0;
+  int sent_in = 0;     ///< stage
+  double sent_at = 0;  ///< on the run's clock
+};
 
 /// Two buffers per (stage, from, to), used by turns. Buffers are kept: once they have grown, nothing is allocated for
 /// messages within the process. Tasks of different sub-models may be open at once, from any thread; those of one
 /// sub-model may not. The caller orders tasks as the step graph says.
 class Mail {
  public:
-  /// With `poison` a message is destroyed when its receiver closes, so that reading it late is noticed. `transport`
-  /// must outlive this.
-  explicit Mail(Transport& transport = alone(), bool poison = false);
+  /// With `poison` a message is destroyed when its receiver closes, so that reading it late is noticed. `clock`: what
+  /// messages to other ranks are dated by. `transport` must outlive this.
+  explicit Mail(Transport& transport = alone(), bool poison = false, RunClock clock = {});
   ~Mail();
 
   /// Makes room for the messages of the model's present neighbours. What an earlier epoch left unread is dropped.
@@ -31,13 +40,17 @@ class Mail {
   /// The letter box of (sub_model, stage) in a round of the epoch, valid until closed. A target that is sent nothing
   /// receives an empty message; so does every receiver of a message of the round before the opening one.
   Port& open(SubModelId sub_model, int stage, std::int64_t round);
+  /// Bytes of a task's messages, without envelopes.
+  struct Carried {
+    std::uint64_t sent = 0, received = 0;
+  };
   /// The task is done: its messages travel, and what it received may be overwritten.
-  void close(SubModelId sub_model);
+  Carried close(SubModelId sub_model);
 
   /// Appends the tasks for which messages have come from other ranks, as nodes of `graph`. One thread at a time.
   /// Errors: std::runtime_error for a parcel that is damaged or of another version, std::logic_error for one that
   /// nobody expects; FailedElsewhere if it says that another rank has failed.
-  void poll(const StepGraph& graph, std::vector<Task>& arrived);
+  void poll(const StepGraph& graph, std::vector<Arrival>& arrived);
 
   /// What was sent along each message of the plan since begin_epoch().
   struct Sent {
@@ -63,6 +76,7 @@ class Mail {
   struct alignas(64) Slot {
     Envelope envelope;
     bool sent = false;
+    double sent_at = 0;
     std::vector<std::byte> bytes;
   };
   /// One message of the plan.
@@ -82,7 +96,7 @@ class Mail {
 
   std::size_t node(SubModelId sub_model, int stage) const;
   void lay_out(Model& model);
-  void post(Line& line, std::int64_t round);
+  std::uint64_t post(Line& line, std::int64_t round);
   void take_in(const Parcel& parcel);
   std::size_t line_of(const Envelope& envelope) const;
   void deliver(std::size_t line);
@@ -90,6 +104,7 @@ class Mail {
 
   Transport& transport_;
   bool poison_;
+  RunClock clock_;
   std::int64_t epoch_ = 0;  ///< counted
   std::int64_t rounds_ = 0;
   std::size_t stages_ = 0;
@@ -108,6 +123,7 @@ class Mail {
   struct Ready {
     Message message;
     std::int64_t round;  ///< in which it is read
+    double sent_at;
   };
   std::vector<Ready> ready_;  ///< arrived and not yet told
   Totals totals_;

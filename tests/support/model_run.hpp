@@ -31,12 +31,9 @@ class ModelRun {
         model_(scene_),
         simulation_(model_,
                     {.threads = threads, .scheduler = scheduler, .measured_cost = false, .check_messages = true},
-                    {.until_next_stop = {},
-                     .at_epoch_end =
-                         [this, each_epoch](std::int64_t) {
-                           if (each_epoch) each_epoch(model_);
-                         },
-                     .observer = nullptr}) {}
+                    {.until_next_stop = {}, .at_epoch_end = [this, each_epoch](std::int64_t) {
+                       if (each_epoch) each_epoch(model_);
+                     }}) {}
 
   void steps(std::int64_t count) {
     const std::int64_t rounds = count * scene_.time.substeps;

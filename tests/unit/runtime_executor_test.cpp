@@ -211,21 +211,27 @@ TEST(Executor, NoticesSchedulersThatBreakTheirContract) {
 
 class Listener final : public TaskObserver {
  public:
-  void task_done(const EndedTask& record) override {
-    ++seen[{record.stage, record.sub_model, record.round.in_epoch}];
+  void task_done(const TaskRecord& record) override {
+    const std::lock_guard lock(mutex_);
+    ++seen[{record.stage, record.sub_model, record.in_epoch}];
+    EXPECT_LE(record.ready, record.handed);
+    EXPECT_LE(record.handed, record.start);
     EXPECT_LE(record.start, record.end);
-    EXPECT_EQ(record.round.number, 100 + std::max<std::int64_t>(0, record.round.in_epoch - 1));
+    EXPECT_EQ(record.round, 100 + std::max(0, record.in_epoch - 1));
     EXPECT_TRUE(record.worker == 0 || record.worker == 1);
   }
   std::map<std::tuple<int, SubModelId, std::int64_t>, int> seen;
+
+ private:
+  std::mutex mutex_;
 };
 
 TEST(Executor, TellsItsObserverEveryTaskOnce) {
   GossipModel model(3, {{"a"}, {"b"}});
   Listener listener;
-  Hooks hooks;
-  hooks.observer = &listener;
-  Simulation(model, options("hybrid", 2), hooks).run(100, 9);
+  Executor executor(2, find_scheduler("hybrid").make());
+  executor.run(
+      build_step_graph(model), {100, 9}, [](Task, int) {}, &listener);
   EXPECT_EQ(listener.seen.size(), 2U * 3 * 10);
   for (const auto& [task, times] : listener.seen) EXPECT_EQ(times, 1);
 }
