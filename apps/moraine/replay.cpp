@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "runtime/replay/replay.hpp"
-#include "runtime/trace/trace_file.hpp"
+#include "runtime/trace/chrome.hpp"
 
 namespace moraine::app {
 namespace {
@@ -196,7 +196,7 @@ void ReplayChoices::add_to(CLI::App& command) {
 }
 
 int replay(const ReplayChoices& choices) {
-  const Workload work = runtime::workload_of(runtime::read_trace_file(choices.trace), choices.epochs);
+  const Workload work = runtime::workload_of(runtime::read_trace(choices.trace), choices.epochs);
   std::vector<Case> cases = cases_of(choices, work);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (cases.size() > 1) std::cerr << fmt::format("replay {} of {}: {}\n", i + 1, cases.size(), layout(cases[i]));

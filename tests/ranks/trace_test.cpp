@@ -59,7 +59,9 @@ TEST_F(Traced, HasEveryTaskOnceAndItsReleaserBefore) {
     const TaskRecord* by = index.releasing(t);
     ASSERT_NE(by, nullptr);
     EXPECT_EQ(by->rank != t.rank, t.release == Release::message);
-    if (t.release == Release::task) EXPECT_LE(by->end, t.start);
+    if (t.release == Release::task) {
+      EXPECT_LE(by->end, t.start);
+    }
     messages += t.release == Release::message;
   }
   EXPECT_GT(messages, 0U);
