@@ -187,10 +187,12 @@ class Executor::Run {
     return {Release::message, before, static_cast<std::int16_t>(a.sent_in), a.from, a.sent_at, now};
   }
 
-  /// Puts what starts in the hands of workers. True if anything starts.
+  /// Puts what starts in the hands of workers. True if anything starts. A task that ended at `now` may have waited for
+  /// the lock while a message released what it now starts.
   bool hand_out(double now) {
     if (starting_.empty()) return false;
-    for (const Assignment& a : starting_) in_hand_[static_cast<std::size_t>(a.worker)] = {a.task, a.released, now};
+    for (const Assignment& a : starting_)
+      in_hand_[static_cast<std::size_t>(a.worker)] = {a.task, a.released, std::max(now, a.released.ready)};
     starting_.clear();
     changed_.notify_all();
     return true;

@@ -23,7 +23,7 @@ class Traced : public testing::Test {
   std::vector<std::uint64_t> run(const TraceOptions& trace) {
     std::vector<std::uint64_t> memories(7);
     moraine::test::on_ranks({.ranks = 3, .shuffled = true}, [&](Transport& transport) {
-      RandomGossip model(4, memories.size());
+      RandomGossip model(3, memories.size());
       Options options{.threads = 2, .transport = &transport, .trace = trace};
       options.balance.balancer = "rotate";
       Simulation(model, options).run(0, 60);
