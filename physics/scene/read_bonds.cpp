@@ -54,8 +54,8 @@ void read_touching(const Node& node, Scene& scene) {
   }
   const bool others = std::any_of(scene.elements.begin(), scene.elements.end(),
                                   [&](const Element& e) { return !scene.shape_of(e).sphere(); });
-  if (others) scene.warnings.push_back("bonds between touching elements are made for spheres only");
-  if (scene.bonds.empty()) scene.warnings.push_back("no elements touch: there are no bonds");
+  if (others) scene.warnings.emplace_back("bonds between touching elements are made for spheres only");
+  if (scene.bonds.empty()) scene.warnings.emplace_back("no elements touch: there are no bonds");
 }
 
 const Element& read_end(const Node& bond, const std::string& key, const Scene& scene) {

@@ -259,7 +259,7 @@ void read_elements(const Node& root, Draft& draft) {
     for (const Node& entry : list->items("a list of packings")) read_entry(entry, draft);
   }
   draft.finish_elements();
-  if (draft.scene.elements.empty()) draft.scene.warnings.push_back("the scene has no elements");
+  if (draft.scene.elements.empty()) draft.scene.warnings.emplace_back("the scene has no elements");
 }
 
 }  // namespace moraine

@@ -113,13 +113,24 @@ TEST(Executor, FailureInTheOpeningRoundSaysSo) {
   }
 }
 
+/// Returns when both of two tasks are at work, so that either may fail without keeping the other from starting.
+void meet(std::atomic<int>& here) {
+  ++here;
+  while (here < 2) std::this_thread::yield();
+}
+
 TEST(Executor, OfSeveralFailuresTheFirstInOrderCounts) {
+  std::atomic<int> here = 0;
   GossipModel model(2, {{"warm"}});
-  model.sub_model(0).on_task = [](int, const Round&) {
+  model.sub_model(0).on_task = [&](int, const Round&) {
+    meet(here);
     std::this_thread::sleep_for(std::chrono::milliseconds(30));
     throw TooHot("late");
   };
-  model.sub_model(1).on_task = [](int, const Round&) { throw TooHot("early"); };
+  model.sub_model(1).on_task = [&](int, const Round&) {
+    meet(here);
+    throw TooHot("early");
+  };
   try {
     Simulation(model, options("hybrid", 2)).run(0, 1);
     FAIL();
