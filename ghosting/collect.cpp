@@ -15,8 +15,7 @@ std::vector<runtime::Bytes> collect(const runtime::Model& model, runtime::Transp
   }
   const bool here = !root || *root == transport.rank();
   std::vector<runtime::Bytes> all(here ? model.size() : 0);
-  const std::vector<runtime::Bytes> parts =
-      root ? runtime::gather(transport, *root, std::move(own)) : runtime::all_gather(transport, own);
+  const std::vector<runtime::Bytes> parts = root ? transport.gather(*root, own) : transport.all_gather(own);
   for (const runtime::Bytes& part : parts)
     for (std::span<const std::byte> in(part); !in.empty();) {
       const SubModelId id = runtime::read_records<SubModelId>(in).at(0);

@@ -46,7 +46,7 @@ bool earlier(const Failure& a, const Failure& b) {
 std::optional<RunError> first_failure(Transport& transport, const std::optional<RunError>& own) {
   if (transport.ranks() == 1) return own;
   std::optional<Failure> first;
-  for (const Bytes& told : all_gather(transport, own ? written(own->failure()) : Bytes{})) {
+  for (const Bytes& told : transport.all_gather(own ? written(own->failure()) : Bytes{})) {
     if (told.empty()) continue;
     Failure failure = read(told);
     if (!first || earlier(failure, *first)) first = std::move(failure);

@@ -22,7 +22,7 @@ std::vector<int> over_ranks(Transport& transport, int own) {
   Bytes told;
   write_records(told, std::vector{own});
   std::vector<int> all;
-  for (const Bytes& bytes : all_gather(transport, told)) {
+  for (const Bytes& bytes : transport.all_gather(told)) {
     std::span<const std::byte> in(bytes);
     all.push_back(read_records<int>(in).at(0));
   }

@@ -24,7 +24,7 @@ std::vector<double> over_ranks(runtime::Transport& transport, double own) {
   runtime::Bytes told;
   ByteWriter(told).put(own);
   std::vector<double> all;
-  for (const runtime::Bytes& b : all_gather(transport, told)) all.push_back(ByteReader(b).get<double>());
+  for (const runtime::Bytes& b : transport.all_gather(told)) all.push_back(ByteReader(b).get<double>());
   return all;
 }
 

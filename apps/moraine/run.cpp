@@ -145,7 +145,7 @@ void print_layout(const Scene& scene, runtime::Transport& transport) {
   const std::string own =
       fmt::format("rank {}: {} thread(s) on cores {}", transport.rank(), threads, runtime::bound_to());
   const auto* letters = reinterpret_cast<const std::byte*>(own.data());
-  for (const runtime::Bytes& b : gather(transport, 0, runtime::Bytes(letters, letters + own.size())))
+  for (const runtime::Bytes& b : transport.gather(0, runtime::Bytes(letters, letters + own.size())))
     std::cerr << std::string_view(reinterpret_cast<const char*>(b.data()), b.size()) << '\n';
 }
 

@@ -27,7 +27,7 @@ template <class Value, class Join>
 Value joined(Transport& transport, Value own, const Join& join) {
   moraine::runtime::Bytes told;
   moraine::runtime::write_records(told, std::vector{own});
-  const auto all = all_gather(transport, told);
+  const auto all = transport.all_gather(told);
   std::vector<Value> values;
   for (std::span<const std::byte> in : all) values.push_back(moraine::runtime::read_records<Value>(in).at(0));
   Value out = values[0];

@@ -29,7 +29,7 @@ template <class Record>
 std::vector<Record> collected(Transport& transport, const std::vector<Record>& own) {
   Bytes bytes;
   write_records(bytes, own);
-  return joined<Record>(all_gather(transport, bytes));
+  return joined<Record>(transport.all_gather(bytes));
 }
 
 /// Both ways of a pair as one, pairs ascending.

@@ -91,7 +91,7 @@ void read_all(const fs::path& folder, const json& manifest, Model& model, Rebala
 /// What is wrong on some rank is wrong on all.
 void agree(Transport& transport, const std::string& problem) {
   const auto* letters = reinterpret_cast<const std::byte*>(problem.data());
-  for (const Bytes& told : all_gather(transport, Bytes(letters, letters + problem.size())))
+  for (const Bytes& told : transport.all_gather(Bytes(letters, letters + problem.size())))
     if (!told.empty()) throw CheckpointError(std::string(reinterpret_cast<const char*>(told.data()), told.size()));
 }
 
@@ -161,7 +161,7 @@ void Checkpoints::finish() {
     own[name] = {{"bytes", written.bytes}, {"xxh3", hex(written.checksum)}};
   const std::string text = own.dump();
   const auto* letters = reinterpret_cast<const std::byte*>(text.data());
-  const std::vector<Bytes> all = gather(transport_, 0, Bytes(letters, letters + text.size()));
+  const std::vector<Bytes> all = transport_.gather(0, Bytes(letters, letters + text.size()));
   if (transport_.rank() != 0) return;
   json manifest{{"version", version}, {"run", options_.run}, {"round", round}, {"ranks", transport_.ranks()}};
   for (const Bytes& part : all)

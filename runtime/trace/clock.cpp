@@ -40,7 +40,7 @@ RunClock::RunClock(Transport& transport) {
     ask_all(transport);
   else
     answer(transport);
-  transport.exchange(std::vector<Bytes>(static_cast<std::size_t>(transport.ranks())));  // none goes on before all know
+  transport.all_gather({});  // none goes on before all know
 }
 
 void RunClock::ask_all(Transport& transport) const {

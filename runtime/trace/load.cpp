@@ -88,7 +88,7 @@ LoadRecord all_ranks(const LoadRecord& own, Transport& transport) {
   for (const auto* list : {&own.workers, &own.stages, &own.nodes}) write_records(told, *list);
   write_records(told, own.waits);
   LoadRecord all;
-  for (const Bytes& bytes : all_gather(transport, told)) {
+  for (const Bytes& bytes : transport.all_gather(told)) {
     std::span<const std::byte> in(bytes);
     all.elapsed = std::max(all.elapsed, read_records<double>(in).at(0));
     const auto workers = read_records<Busy>(in);

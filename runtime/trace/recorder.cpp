@@ -89,7 +89,7 @@ void Recorder::collect_tasks() {
 
 void Recorder::flush() {
   collect_tasks();
-  for (const Bytes& packed : gather(transport_, 0, pack(lists_))) writer_->append(packed);
+  for (const Bytes& packed : transport_.gather(0, pack(lists_))) writer_->append(packed);
   lists_ = {};
   unwritten_rounds_ = 0;
 }

@@ -94,6 +94,16 @@ class Loopback final : public Transport {
   int ranks() const override { return hub_->ranks(); }
   void send(int to, Bytes bytes) override { hub_->inbox(to).put({rank_, std::move(bytes)}); }
   std::optional<Parcel> receive() override { return hub_->inbox(rank_).take(); }
+  std::vector<Bytes> all_gather(const Bytes& own) override {
+    return exchange(std::vector<Bytes>(static_cast<std::size_t>(ranks()), own));
+  }
+  std::vector<Bytes> gather(int root, const Bytes& own) override {
+    std::vector<Bytes> to(static_cast<std::size_t>(ranks()));
+    to[static_cast<std::size_t>(root)] = own;
+    std::vector<Bytes> from = exchange(std::move(to));
+    if (rank_ != root) from.clear();
+    return from;
+  }
   std::vector<Bytes> exchange(std::vector<Bytes> to) override { return hub_->exchange(rank_, std::move(to)); }
   [[noreturn]] void abort(int status) override { std::_Exit(status); }
   int ranks_on_these_cores() override { return hub_->ranks(); }

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <list>
 #include <mutex>
+#include <numeric>
 #include <stdexcept>
 
 namespace moraine::runtime {
@@ -38,6 +39,22 @@ class Communicator {
 
  private:
   MPI_Comm handle_ = MPI_COMM_NULL;
+};
+
+/// What is collected of every rank's block at once: as much as MPI can count, hence nearly always all.
+struct Round {
+  Round(const std::vector<std::uint64_t>& sizes, std::uint64_t at, std::uint64_t most) : places(sizes.size() + 1) {
+    for (const std::uint64_t size : sizes)
+      counts.push_back(static_cast<int>(std::min(size - std::min(at, size), most)));
+    std::partial_sum(counts.begin(), counts.end(), places.begin() + 1);
+  }
+  std::size_t length() const { return static_cast<std::size_t>(places.back()); }
+  void append(Bytes& to, const Bytes& taken, std::size_t rank) const {
+    to.insert(to.end(), taken.begin() + places[rank], taken.begin() + places[rank + 1]);
+  }
+
+  std::vector<int> counts;  ///< per rank
+  std::vector<int> places;  ///< per rank, and the end
 };
 
 /// Blocks in pieces that MPI can count, begun one after another and awaited together.
@@ -105,6 +122,20 @@ class Mpi final : public Transport {
     return parcel;
   }
 
+  std::vector<Bytes> all_gather(const Bytes& own) override {
+    return in_rounds(own, true, [this](const std::byte* give, std::byte* take, const Round& round) {
+      MPI_Allgatherv(give, round.counts[static_cast<std::size_t>(rank_)], MPI_BYTE, take, round.counts.data(),
+                     round.places.data(), MPI_BYTE, exchanges_.get());
+    });
+  }
+
+  std::vector<Bytes> gather(int root, const Bytes& own) override {
+    return in_rounds(own, rank_ == root, [this, root](const std::byte* give, std::byte* take, const Round& round) {
+      MPI_Gatherv(give, round.counts[static_cast<std::size_t>(rank_)], MPI_BYTE, take, round.counts.data(),
+                  round.places.data(), MPI_BYTE, root, exchanges_.get());
+    });
+  }
+
   std::vector<Bytes> exchange(std::vector<Bytes> to) override {
     const std::lock_guard lock(mutex_);
     std::vector<std::uint64_t> given, taken(to.size());
@@ -150,6 +181,24 @@ class Mpi final : public Transport {
     Bytes bytes;
     MPI_Request request = MPI_REQUEST_NULL;
   };
+
+  /// Blocks of all ranks, collected `here` and in the same number of rounds everywhere.
+  template <class Collect>
+  std::vector<Bytes> in_rounds(const Bytes& own, bool here, const Collect& collect) {
+    const std::lock_guard lock(mutex_);
+    const std::uint64_t size = own.size();
+    std::vector<std::uint64_t> sizes(static_cast<std::size_t>(ranks_));
+    MPI_Allgather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, exchanges_.get());
+    std::vector<Bytes> all(here ? sizes.size() : 0);
+    const std::uint64_t longest = *std::max_element(sizes.begin(), sizes.end()), most = piece / sizes.size();
+    for (std::uint64_t at = 0; at < longest; at += most) {
+      const Round round(sizes, at, most);
+      Bytes taken(here ? round.length() : 0);
+      collect(own.data() + std::min(at, size), taken.data(), round);
+      for (std::size_t rank = 0; rank < all.size(); ++rank) round.append(all[rank], taken, rank);
+    }
+    return all;
+  }
 
   static bool sent(Outgoing& o) {
     int done = 0;

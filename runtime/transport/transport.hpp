@@ -29,9 +29,18 @@ class Transport {
   virtual void send(int to, Bytes bytes) = 0;
   /// A parcel that has arrived, if there is one. From any thread.
   virtual std::optional<Parcel> receive() = 0;
-  /// Called by all ranks, while none sends or receives: `to` has one entry per rank, and so has what comes back. An
-  /// entry may be empty.
+
+  // The next three are called by all ranks, in the same order, while none sends or receives.
+
+  /// What every rank gives, by rank, on every rank. Cost: a number of messages per rank that grows as the logarithm of
+  /// the ranks while all that is given is short.
+  virtual std::vector<Bytes> all_gather(const Bytes& own) = 0;
+  /// The same, on rank `root` alone; nothing elsewhere.
+  virtual std::vector<Bytes> gather(int root, const Bytes& own) = 0;
+  /// `to` has one entry per rank, and so has what comes back. An entry may be empty. Cost: the lengths as in
+  /// all_gather(), and one message for every entry that is not empty.
   virtual std::vector<Bytes> exchange(std::vector<Bytes> to) = 0;
+
   /// Ends the processes of all ranks, this one too, with this exit status.
   [[noreturn]] virtual void abort(int status) = 0;
   /// Ranks on this machine that share cores with this one, itself included.
@@ -40,10 +49,5 @@ class Transport {
 
 /// The one rank of a run without others.
 Transport& alone();
-
-/// What every rank gives, by rank, on every rank. Called by all.
-std::vector<Bytes> all_gather(Transport& transport, const Bytes& own);
-/// The same, on rank `root` alone; nothing elsewhere.
-std::vector<Bytes> gather(Transport& transport, int root, Bytes own);
 
 }  // namespace moraine::runtime
