@@ -24,6 +24,7 @@ struct Neighbourhood {
 
 /// Sub-models whose bounds come closer than a margin are neighbours. The margin is what elements may travel in the
 /// epoch at twice today's largest speed plus free fall: two diameters, or more if that would last less than 8 rounds.
+/// Cost: of n sub-models, n log n and what overlaps along the longest axis of the whole.
 Neighbourhood find_neighbours(std::span<const Reach> reaches, double diameter, double gravity, double substep,
                               std::int64_t at_most);
 
