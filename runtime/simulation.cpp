@@ -46,7 +46,7 @@ Simulation::Simulation(Model& model, const Options& options, Hooks hooks)
       clock_(transport_),
       phases_(clock_),
       executor_(options.threads == 0 ? threads_for(transport_) : options.threads,
-                find_scheduler(options.scheduler).make(), clock_),
+                find_scheduler(options.scheduler).make(), clock_, options.processor_time && transport_.ranks() > 1),
       mail_(transport_, options.check_messages, clock_),
       balance_(options.balance, transport_),
       checkpoints_(options.checkpoint, transport_) {

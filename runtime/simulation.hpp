@@ -22,6 +22,7 @@ struct Options {
   int threads = 0;                   ///< of this rank; 0: its share of usable_cores()
   std::string scheduler = "hybrid";  ///< a name of schedulers()
   bool measured_cost = false;        ///< predict with the last epoch's times instead of counted work
+  bool processor_time = true;        ///< on several ranks loads are processor time, for 1 us per task; else wall time
   bool check_messages = false;       ///< destroy messages once read, to notice late readers
   Transport* transport = nullptr;    ///< must outlive the simulation; none: this process is alone
   BalanceOptions balance = {};

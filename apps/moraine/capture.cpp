@@ -161,7 +161,8 @@ Summary summarise(const CoupledModel& model, const runtime::Simulation& simulati
   s.balance = summarise(simulation.balance(), transport, scene.time.substeps);
   s.messages = summarise_messages(simulation);
   for (std::size_t i = 0; i < load.stages.size(); ++i)
-    s.step_share[std::string(SubModel::stages()[i].name)] = load.busy() > 0 ? load.stages[i].seconds / load.busy() : 0;
+    s.step_share[std::string(SubModel::stages()[i].name)] =
+        load.busy() > 0 ? load.stages[i].taken.seconds / load.busy() : 0;
   s.recuts = statistics.recuts;
   s.warnings = scene.warnings;
   return s;

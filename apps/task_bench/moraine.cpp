@@ -73,7 +73,8 @@ class Points final : public runtime::Model {
 
 Outcome run_moraine(const Problem& problem, const std::string& scheduler, int threads, runtime::Transport& transport) {
   Points model(problem);
-  runtime::Options options{.threads = threads, .scheduler = scheduler, .transport = &transport};
+  runtime::Options options{
+      .threads = threads, .scheduler = scheduler, .processor_time = false, .transport = &transport};
   options.balance.balancer = "none";
   runtime::Simulation simulation(model, options);
   const auto begin = std::chrono::steady_clock::now();

@@ -62,7 +62,7 @@ void Rebalance::note(Model& model, const Epoch& epoch, const LoadRecord& load, c
   costs_.resize(model.size());
   for (SubModelId id = 0; id < model.size(); ++id) {
     if (!model.placement().holds(id)) continue;
-    const double seconds = load.seconds_of(id);
+    const double seconds = load.processor_of(id);
     double counted = 0;
     for (int stage = 0; stage < stages; ++stage) counted += model.sub_model(id).counted_work(stage);
     Cost& cost = costs_[id];

@@ -20,7 +20,7 @@ struct BalanceOptions {
   std::string balancer = "refine";   ///< a name of balancers()
   std::string predictor = "median";  ///< a name of predictors()
   std::int64_t every = 1;            ///< rounds from one balance to the next, at least
-  bool measured = false;             ///< load is busy time, not counted work: plans then differ from run to run
+  bool measured = false;             ///< load is processor time, not counted work: plans then differ from run to run
   BalancerOptions more;
 };
 
@@ -51,7 +51,7 @@ class Rebalance {
     SubModelId id = 0;
     std::uint32_t unused = 0;
     double load = 0;     ///< sum over rounds
-    double seconds = 0;  ///< busy
+    double seconds = 0;  ///< of processors
     double memory = 0;
     double rounds = 0;
   };

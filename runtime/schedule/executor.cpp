@@ -19,6 +19,7 @@
 #include "runtime/run_error.hpp"
 #include "runtime/schedule/dispatcher.hpp"
 #include "runtime/schedule/oldest_first.hpp"
+#include "runtime/trace/processor_time.hpp"
 
 namespace moraine::runtime {
 namespace {
@@ -43,6 +44,7 @@ class Executor::Run {
   Run(Executor& owner, const StepGraph& graph, const Epoch& epoch, const Work& work, TaskObserver* observer,
       const Poll& poll)
       : clock_(owner.clock_),
+        processor_time_(owner.processor_time_),
         graph_(graph),
         epoch_(epoch),
         work_(work),
@@ -91,7 +93,10 @@ class Executor::Run {
     int worker;
     double start;
     double end;
+    double processor;
     std::exception_ptr error;
+
+    Taken taken() const { return {end - start, processor}; }
   };
 
   void start(double now) {
@@ -199,19 +204,22 @@ class Executor::Run {
   }
 
   Ended attempt(const InHand& given, int worker) const {
-    Ended ended{given, worker, clock_.now(), 0, nullptr};
+    Ended ended{given, worker, clock_.now(), 0, 0, nullptr};
+    const double before = processor_time_ ? processor_seconds() : 0;
     try {
       work_(given.task, worker);
     } catch (...) {
       ended.error = std::current_exception();
     }
+    ended.processor = processor_time_ ? processor_seconds() - before : 0;
     ended.end = clock_.now();
+    if (!processor_time_) ended.processor = ended.end - ended.start;
     return ended;
   }
 
   void account(const Ended& e) {
     if (e.error) return keep_first(e.given.task, e.error);
-    load_.add(graph_, e.given.task, e.worker, e.end - e.start);
+    load_.add(graph_, e.given.task, e.worker, e.taken());
     double& idle_since = idle_since_[static_cast<std::size_t>(e.worker)];
     load_.waits[static_cast<std::size_t>(e.worker)] +=
         wait_before(idle_since, e.given.released, e.given.handed, e.start);
@@ -268,6 +276,7 @@ class Executor::Run {
   }
 
   const RunClock clock_;
+  const bool processor_time_;
   const StepGraph& graph_;
   const Epoch epoch_;
   const Work& work_;
@@ -291,8 +300,8 @@ class Executor::Run {
   tbb::task_group group_;
 };
 
-Executor::Executor(int workers, std::unique_ptr<Scheduler> scheduler, RunClock clock)
-    : workers_(workers), clock_(clock), scheduler_(std::move(scheduler)) {
+Executor::Executor(int workers, std::unique_ptr<Scheduler> scheduler, RunClock clock, bool processor_time)
+    : workers_(workers), clock_(clock), processor_time_(processor_time), scheduler_(std::move(scheduler)) {
   if (workers < 1) throw std::invalid_argument("an executor needs at least one worker");
   threads_ = std::make_unique<Threads>(workers);
 }

@@ -23,8 +23,9 @@ class Executor {
   /// time, often. What it throws ends the run.
   using Poll = std::function<void(std::vector<Arrival>& arrived)>;
 
-  /// `clock`: what times are told by. Errors: std::invalid_argument if workers < 1.
-  Executor(int workers, std::unique_ptr<Scheduler> scheduler, RunClock clock = {});
+  /// `clock`: what times are told by. With `processor_time` a task's processor time is measured too.
+  /// Errors: std::invalid_argument if workers < 1.
+  Executor(int workers, std::unique_ptr<Scheduler> scheduler, RunClock clock = {}, bool processor_time = false);
   ~Executor();
 
   int workers() const { return workers_; }
@@ -33,7 +34,8 @@ class Executor {
   /// threads sleep. Errors: if tasks throw, no more are started; when
   /// those running have ended, RunError for the first of the failed by (round, stage, sub-model). std::logic_error if
   /// the policy breaks its contract. While messages are awaited, threads look for them between tasks, and one idle
-  /// thread all the time. Cost: a fraction of a microsecond per task beside its work.
+  /// thread all the time. Cost: a fraction of a microsecond per task beside its work,
+  /// one to two more where processor time is measured.
   LoadRecord run(const StepGraph& graph, const Epoch& epoch, const Work& work, TaskObserver* observer = nullptr,
                  const Poll& poll = {});
 
@@ -43,6 +45,7 @@ class Executor {
 
   int workers_;
   RunClock clock_;
+  bool processor_time_;
   std::unique_ptr<Scheduler> scheduler_;
   std::unique_ptr<Threads> threads_;
 };

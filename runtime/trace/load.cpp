@@ -11,8 +11,7 @@ namespace {
 void merge_lists(std::vector<Busy>& into, const std::vector<Busy>& from) {
   into.resize(std::max(into.size(), from.size()));
   for (std::size_t i = 0; i < from.size(); ++i) {
-    into[i].seconds += from[i].seconds;
-    into[i].tasks += from[i].tasks;
+    into[i].add(from[i].taken, from[i].tasks);
   }
 }
 
@@ -24,11 +23,10 @@ LoadRecord::LoadRecord(const StepGraph& graph, int worker_count)
       stages(graph.stages.size()),
       nodes(graph.ids.empty() ? 0 : (graph.ids.back() + 1) * graph.stages.size()) {}
 
-void LoadRecord::add(const StepGraph& graph, Task task, int worker, double seconds) {
-  workers[static_cast<std::size_t>(worker)].add(seconds);
-  stages[static_cast<std::size_t>(graph.stage(task.node))].add(seconds);
-  nodes[graph.sub_model(task.node) * graph.stages.size() + static_cast<std::size_t>(graph.stage(task.node))].add(
-      seconds);
+void LoadRecord::add(const StepGraph& graph, Task task, int worker, const Taken& taken) {
+  workers[static_cast<std::size_t>(worker)].add(taken);
+  stages[static_cast<std::size_t>(graph.stage(task.node))].add(taken);
+  nodes[graph.sub_model(task.node) * graph.stages.size() + static_cast<std::size_t>(graph.stage(task.node))].add(taken);
 }
 
 void LoadRecord::merge(const LoadRecord& other) {
@@ -42,7 +40,7 @@ void LoadRecord::merge(const LoadRecord& other) {
 
 double LoadRecord::busy() const {
   double sum = 0;
-  for (const Busy& worker : workers) sum += worker.seconds;
+  for (const Busy& worker : workers) sum += worker.taken.seconds;
   return sum;
 }
 
@@ -60,15 +58,18 @@ double LoadRecord::utilisation() const {
 double LoadRecord::waiting_fraction() const { return 1.0 - utilisation(); }
 
 double LoadRecord::imbalance() const {
-  double most = 0;
-  for (const Busy& worker : workers) most = std::max(most, worker.seconds);
-  return most > 0 ? most * static_cast<double>(workers.size()) / busy() : 1.0;
+  double most = 0, sum = 0;
+  for (const Busy& worker : workers) {
+    most = std::max(most, worker.taken.processor);
+    sum += worker.taken.processor;
+  }
+  return most > 0 ? most * static_cast<double>(workers.size()) / sum : 1.0;
 }
 
-double LoadRecord::seconds_of(SubModelId id) const {
+double LoadRecord::processor_of(SubModelId id) const {
   double sum = 0;
   for (std::size_t stage = 0; stage < stages.size(); ++stage)
-    if (const std::size_t at = id * stages.size() + stage; at < nodes.size()) sum += nodes[at].seconds;
+    if (const std::size_t at = id * stages.size() + stage; at < nodes.size()) sum += nodes[at].taken.processor;
   return sum;
 }
 
@@ -77,7 +78,7 @@ std::vector<double> LoadRecord::mean_cost(const StepGraph& graph) const {
   for (NodeId node = 0; node < graph.node_count(); ++node) {
     const std::size_t at = graph.sub_model(node) * stages.size() + static_cast<std::size_t>(graph.stage(node));
     const Busy busy = at < nodes.size() ? nodes[at] : Busy{};
-    cost.push_back(busy.tasks > 0 ? busy.seconds / static_cast<double>(busy.tasks) : 0.0);
+    cost.push_back(busy.tasks > 0 ? busy.taken.seconds / static_cast<double>(busy.tasks) : 0.0);
   }
   return cost;
 }

@@ -11,13 +11,20 @@
 
 namespace moraine::runtime {
 
-/// Time and number of tasks.
+/// What a task took.
+struct Taken {
+  double seconds = 0;    ///< from start to end
+  double processor = 0;  ///< of these, with a core; the same as seconds where it is not measured
+};
+
+/// What tasks took, and how many they were.
 struct Busy {
-  double seconds = 0;
+  Taken taken;
   std::int64_t tasks = 0;
-  void add(double more) {
-    seconds += more;
-    ++tasks;
+  void add(const Taken& more, std::int64_t count = 1) {
+    taken.seconds += more.seconds;
+    taken.processor += more.processor;
+    tasks += count;
   }
 };
 
@@ -31,7 +38,7 @@ struct LoadRecord {
 
   LoadRecord() = default;
   LoadRecord(const StepGraph& graph, int workers);
-  void add(const StepGraph& graph, Task task, int worker, double seconds);
+  void add(const StepGraph& graph, Task task, int worker, const Taken& taken);
   /// Adds another epoch's. Lists grow to the longer one.
   void merge(const LoadRecord& other);
 
@@ -39,9 +46,9 @@ struct LoadRecord {
   std::int64_t tasks() const;
   double utilisation() const;       ///< busy / (workers * elapsed); 1 if nothing ran
   double waiting_fraction() const;  ///< 1 - utilisation
-  double imbalance() const;         ///< busiest worker / mean worker; 1 if nothing ran
-  /// Of a sub-model's tasks here.
-  double seconds_of(SubModelId id) const;
+  double imbalance() const;         ///< busiest worker / mean worker, in processor time; 1 if nothing ran
+  /// Processor time of a sub-model's tasks here [s].
+  double processor_of(SubModelId id) const;
   /// Mean seconds of the tasks of each of the graph's nodes; 0 for those that did not run here.
   std::vector<double> mean_cost(const StepGraph& graph) const;
 };

@@ -258,12 +258,29 @@ TEST(Executor, MeasuresLoad) {
   simulation.run(5, 5);
   const LoadRecord& load = simulation.load();
   EXPECT_EQ(load.tasks(), 2 * 2 * 12);
-  EXPECT_GE(load.stages[1].seconds, 0.002 * 24);
-  EXPECT_LT(load.stages[0].seconds, load.stages[1].seconds);
+  EXPECT_GE(load.stages[1].taken.seconds, 0.002 * 24);
+  EXPECT_LT(load.stages[0].taken.seconds, load.stages[1].taken.seconds);
   EXPECT_GE(load.elapsed, load.busy());
   EXPECT_GT(load.utilisation(), 0.5);
   EXPECT_EQ(load.imbalance(), 1.0);
   EXPECT_GE(load.mean_cost(build_step_graph(model))[3], 0.002);
+}
+
+/// Where ranks are several, those who sleep are not busy: nor are those who wait for a core.
+TEST(Executor, MeasuresProcessorTime) {
+  GossipModel model(1, {{"a"}});
+  const StepGraph graph = build_step_graph(model);
+  for (const bool processor_time : {false, true}) {
+    Executor executor(1, find_scheduler("serial").make(), {}, processor_time);
+    const Busy busy =
+        executor.run(graph, {0, 5}, [&](Task, int) { std::this_thread::sleep_for(std::chrono::milliseconds(5)); })
+            .workers[0];
+    EXPECT_GE(busy.taken.seconds, 0.005 * 6);
+    if (processor_time)
+      EXPECT_LT(busy.taken.processor, 0.5 * busy.taken.seconds);
+    else
+      EXPECT_EQ(busy.taken.processor, busy.taken.seconds);
+  }
 }
 
 TEST(LoadRecord, ComparesWorkers) {
@@ -271,15 +288,16 @@ TEST(LoadRecord, ComparesWorkers) {
   const StepGraph graph = build_step_graph(model);
   LoadRecord load(graph, 2);
   load.elapsed = 10;
-  load.add(graph, {0, 0}, 0, 9);
+  load.add(graph, {0, 0}, 0, {9, 6});
   LoadRecord more(graph, 2);
   more.elapsed = 10;
-  more.add(graph, {0, 0}, 1, 3);
+  more.add(graph, {0, 0}, 1, {3, 2});
   load.merge(more);
   EXPECT_DOUBLE_EQ(load.utilisation(), 0.3);
   EXPECT_DOUBLE_EQ(load.waiting_fraction(), 0.7);
   EXPECT_DOUBLE_EQ(load.imbalance(), 1.5);
   EXPECT_EQ(load.mean_cost(graph), std::vector<double>{6});
+  EXPECT_EQ(load.processor_of(0), 8);
 }
 
 }  // namespace
