@@ -11,9 +11,10 @@ namespace {
 constexpr hsize_t kChunk = 8192;  // rows, of tables that grow by many
 
 /// Errors are reported by return values; the library's own print-out is switched off before its first use.
-hid_t create(const std::filesystem::path& path) {
+hid_t open_file(const std::filesystem::path& path, bool go_on) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  return go_on ? H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT)
+               : H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
 }
 
 hid_t number_type(const Column& column) {
@@ -26,8 +27,9 @@ int rank_of(const Column& column) { return column.components > 1 ? 2 : 1; }
 
 }  // namespace
 
-Hdf5File::Hdf5File(std::filesystem::path path) : path_(std::move(path)), file_(create(path_), H5Fclose) {
-  check(file_, "cannot create the file");
+Hdf5File::Hdf5File(std::filesystem::path path, bool go_on)
+    : path_(std::move(path)), file_(open_file(path_, go_on), H5Fclose) {
+  check(file_, go_on ? "cannot go on with the file; move it away to begin another" : "cannot create the file");
 }
 
 hid_t Hdf5File::check(hid_t result, const std::string& what) const {
@@ -86,11 +88,13 @@ Hdf5Handle Hdf5File::create_table(const std::string& name, const Column& rows) {
           H5Dclose};
 }
 
+Hdf5Handle Hdf5File::open_table(const std::string& name) {
+  return {check(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), "cannot open table " + name), H5Dclose};
+}
+
 void Hdf5File::append(const std::string& name, const Column& rows) {
   const bool exists = check(H5Lexists(file_, name.c_str(), H5P_DEFAULT), "cannot look for " + name) > 0;
-  const Hdf5Handle table =
-      exists ? Hdf5Handle(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose) : create_table(name, rows);
-  check(table, "cannot open table " + name);
+  const Hdf5Handle table = exists ? open_table(name) : create_table(name, rows);
   if (rows.tuples() == 0) return;
   hsize_t size[2] = {}, begin[2] = {}, count[] = {rows.tuples(), rows.components};
   check(H5Sget_simple_extent_dims(Hdf5Handle(H5Dget_space(table), H5Sclose), size, nullptr), "cannot measure " + name);
@@ -105,6 +109,31 @@ void Hdf5File::append(const std::string& name, const Column& rows) {
 
 void Hdf5File::append(const std::string& name, std::int64_t row) {
   append(name, Column{name, 1, std::vector<std::int64_t>{row}});
+}
+
+std::int64_t Hdf5File::number(const std::string& object, const char* name) {
+  const Hdf5Handle attribute(H5Aopen_by_name(file_, object.c_str(), name, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  std::int64_t value = 0;
+  check(attribute, fmt::format("cannot open attribute {}", name));
+  check(H5Aread(attribute, H5T_NATIVE_INT64, &value), fmt::format("cannot read attribute {}", name));
+  return value;
+}
+
+std::vector<double> Hdf5File::numbers(const std::string& name) {
+  const Hdf5Handle table = open_table(name), space(H5Dget_space(table), H5Sclose);
+  std::vector<double> values(
+      static_cast<std::size_t>(check(H5Sget_simple_extent_npoints(space), "cannot measure " + name)));
+  check(H5Dread(table, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "cannot read " + name);
+  return values;
+}
+
+void Hdf5File::keep(const std::string& name, std::int64_t rows) {
+  const Hdf5Handle table = open_table(name);
+  hsize_t size[2] = {};
+  check(H5Sget_simple_extent_dims(Hdf5Handle(H5Dget_space(table), H5Sclose), size, nullptr), "cannot measure " + name);
+  if (size[0] < static_cast<hsize_t>(rows)) check(-1, fmt::format("table {} has lost rows", name));
+  size[0] = static_cast<hsize_t>(rows);
+  check(H5Dset_extent(table, size), "cannot shorten table " + name);
 }
 
 void Hdf5File::flush() { check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "cannot write"); }

@@ -33,10 +33,11 @@ class Hdf5Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// A new file. Names are paths inside the file. Errors of every call: IoError naming the file and what failed.
+/// Names are paths inside the file. Errors of every call: IoError naming the file and what failed.
 class Hdf5File {
  public:
-  explicit Hdf5File(std::filesystem::path path);
+  /// A new file, or one that is there, to go on with.
+  explicit Hdf5File(std::filesystem::path path, bool go_on = false);
 
   void group(const std::string& name);
   void attribute(const std::string& object, const char* name, const std::vector<std::int64_t>& values);
@@ -46,6 +47,12 @@ class Hdf5File {
   /// Adds rows to the table of that name, made at first use: chunked, shuffled and deflated.
   void append(const std::string& name, const Column& rows);
   void append(const std::string& name, std::int64_t row);
+  /// The number that attribute() wrote.
+  std::int64_t number(const std::string& object, const char* name);
+  /// A table of one column, as doubles.
+  std::vector<double> numbers(const std::string& name);
+  /// Drops all rows of a table but the first `rows`, which must be there.
+  void keep(const std::string& name, std::int64_t rows);
   void flush();
   void close();
 
@@ -53,6 +60,7 @@ class Hdf5File {
   hid_t check(hid_t result, const std::string& what) const;
   Hdf5Handle create_table(const std::string& name, const Column& rows);
   Hdf5Handle open(const std::string& object);
+  Hdf5Handle open_table(const std::string& name);
 
   std::filesystem::path path_;
   Hdf5Handle file_;

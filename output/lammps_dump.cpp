@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// LAMMPS text dump, one file for all frames. OVITO reads radius and quaternion by these column names; type is the
-// sub-model plus one.
+// LAMMPS text dump, one file for all frames; after a restart it goes on where the run does. OVITO reads radius and
+// quaternion by these column names; type is the sub-model plus one.
 #include <fmt/format.h>
 
+#include <fstream>
 #include <iterator>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "output/file.hpp"
 #include "output/writers.hpp"
@@ -34,11 +38,42 @@ void append_atom(std::string& text, const Scene& scene, const Frame::Bodies& bod
                  v.y(), v.z(), q.w(), q.x(), q.y(), q.z());
 }
 
+/// The next line, if it is whole.
+std::optional<std::string> whole_line(std::istream& in) {
+  std::string line;
+  if (!std::getline(in, line) || in.eof()) return std::nullopt;
+  return line;
+}
+
+bool skip_lines(std::istream& in, std::uint64_t count) {
+  for (; count > 0; --count)
+    if (!in.ignore(std::numeric_limits<std::streamsize>::max(), '\n') || in.eof()) return false;
+  return true;
+}
+
+/// The step of the frame that begins here, if it is whole; then the next one begins.
+std::optional<std::int64_t> skip_frame(std::istream& in) {
+  if (whole_line(in) != "ITEM: TIMESTEP") return std::nullopt;
+  const auto step = whole_line(in), title = whole_line(in), atoms = whole_line(in);
+  if (!atoms || !skip_lines(in, 5 + std::stoull(*atoms))) return std::nullopt;
+  return std::stoll(*step);
+}
+
+/// Bytes of the whole frames before `step`. Cost: reads the file once.
+std::uintmax_t length_before(const std::filesystem::path& path, std::int64_t step) {
+  std::ifstream in(path, std::ios::binary);
+  std::uintmax_t length = 0;
+  for (auto next = skip_frame(in); next && *next < step; next = skip_frame(in))
+    length = static_cast<std::uintmax_t>(in.tellg());
+  return length;
+}
+
 class LammpsDumpWriter : public Writer {
  public:
   LammpsDumpWriter(const Scene& scene, const std::filesystem::path& folder)
-      : scene_(scene), file_(folder / "dump.lammpstrj") {}
+      : scene_(scene), path_(folder / "dump.lammpstrj"), has_more_(goes_on(scene, path_)), file_(path_, has_more_) {}
   void write(const Frame& frame) override {
+    if (std::exchange(has_more_, false)) std::filesystem::resize_file(path_, length_before(path_, frame.step));
     std::string text = header(frame, bounds_of(scene_, frame.elements));
     for (std::size_t i = 0; i < frame.elements.size(); ++i) append_atom(text, scene_, frame.elements, i);
     file_.write(text);
@@ -48,6 +83,8 @@ class LammpsDumpWriter : public Writer {
 
  private:
   const Scene& scene_;
+  std::filesystem::path path_;
+  bool has_more_;  ///< frames from before a restart, not yet cut back to where it goes on
   OutputFile file_;
 };
 

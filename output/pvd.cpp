@@ -80,8 +80,8 @@ VtuGrid bond_grid(const Scene& scene, const Frame& frame) {
 /// One group's index, rewritten with every frame. After a restart it goes on with the frames written before.
 class Index {
  public:
-  Index(const std::filesystem::path& folder, const char* group, bool go_on) : folder_(folder), group_(group) {
-    if (go_on && std::filesystem::exists(path())) read();
+  Index(const Scene& scene, const std::filesystem::path& folder, const char* group) : folder_(folder), group_(group) {
+    if (goes_on(scene, path())) read();
   }
   void write(const Frame& frame, const VtuGrid& grid) {
     const std::string name = fmt::format("{}/{}", kFrames, frame_name(group_, frame.step, "vtu"));
@@ -120,9 +120,9 @@ class PvdWriter : public Writer {
  public:
   PvdWriter(const Scene& scene, const std::filesystem::path& folder)
       : scene_(scene),
-        elements_(folder, "elements", !scene.run.restart.empty()),
-        ghosts_(folder, "ghosts", !scene.run.restart.empty()),
-        bonds_(folder, "bonds", !scene.run.restart.empty()) {
+        elements_(scene, folder, "elements"),
+        ghosts_(scene, folder, "ghosts"),
+        bonds_(scene, folder, "bonds") {
     make_folder(folder / kFrames);
     write_scene_table(scene, folder);
   }

@@ -11,7 +11,8 @@
 
 namespace moraine {
 
-/// Writes frames, in order of time, below one folder. Errors: IoError naming the path. Used by one thread.
+/// Writes frames, in order of time, below one folder. Frames that were there before a restart stay, those from its
+/// first frame on are replaced. Errors: IoError naming the path. Used by one thread.
 class Writer {
  public:
   virtual ~Writer() = default;

@@ -68,14 +68,33 @@ TEST_F(Mpi, WrongInputEndsAllRanks) {
   EXPECT_EQ(ended.status, 2) << ended.text;
 }
 
-/// Frames written before a stop stay in the index.
+/// Frames written before a stop stay, in the index and in files that hold all of them.
 TEST_F(Mpi, KeepsFramesOverARestart) {
-  EXPECT_EQ(run(0, "--steps 120 --output-every 30 --checkpoint-every 10").status, 0);
-  EXPECT_EQ(run(2, "--steps 200 --output-every 30 --checkpoint-every 10 --restart latest").status, 0);
+  const std::string output = " --output-every 30 --set output.formats=[pvd,lammps_dump,vtkhdf]";
+  const auto dump = [&] {
+    std::ifstream file(out_ / "dump.lammpstrj");
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_EQ(run(0, "--steps 200" + output).status, 0);
+  const std::string whole = dump();
+  fs::remove_all(out_);
+  EXPECT_EQ(run(0, "--steps 120 --checkpoint-every 10" + output).status, 0);
+  EXPECT_EQ(run(2, "--steps 200 --checkpoint-every 10 --restart latest" + output).status, 0);
+  EXPECT_TRUE(dump() == whole);
   std::ifstream index(out_ / "elements.pvd");
   int frames = 0;
   for (std::string line; std::getline(index, line);) frames += line.starts_with("<DataSet") ? 1 : 0;
   EXPECT_EQ(frames, 8) << "steps 0, 30, 60, 90, 120, 150, 180, 200";
+}
+
+/// A checkpoint of other materials is of another run.
+TEST_F(Mpi, RefusesACheckpointOfAnotherStiffness) {
+  const std::string soft =
+      "--steps 60 --set count=100 --engine soft_sphere --dt 3e-4 --set materials.grain.restitution=0.5 ";
+  EXPECT_EQ(run(0, soft + "--checkpoint-every 10").status, 0);
+  const Ended other = run(0, soft + "--restart latest --set materials.grain.normal_stiffness=1e4");
+  EXPECT_EQ(other.status, 2) << other.text;
+  EXPECT_NE(other.text.find("of another run"), std::string::npos) << other.text;
 }
 
 /// One rank is killed in the middle; the others end, and the run goes on from its last checkpoint on other ranks.

@@ -74,5 +74,27 @@ TEST(LammpsDump, HoldsEveryFrameInTheDocumentedColumns) {
   }
 }
 
+/// What is written after a stop in the middle of a frame, from step 120 on again.
+TEST(LammpsDump, GoesOnAfterARestart) {
+  const sample::Folder folder("dump_restart"), whole_folder("dump_whole");
+  Scene scene = sample::scene();
+  const auto write = [&](const sample::Folder& to, std::vector<std::int64_t> steps) {
+    const auto writer = find_writer("lammps_dump").make(scene, to.path());
+    for (const std::int64_t step : steps) writer->write(sample::frame(scene, step));
+    writer->finish();
+  };
+  write(whole_folder, {0, 60, 120, 180});
+  write(folder, {0, 60, 120, 150});
+  const auto file = folder / "dump.lammpstrj";
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 7);
+  scene.run.restart = "latest";
+  write(folder, {120, 180});
+  EXPECT_EQ(read_file(file), read_file(whole_folder / "dump.lammpstrj"));
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 7);
+  write(folder, {});
+  write(folder, {240});
+  EXPECT_EQ(lines(file)[3 * (9 + scene.elements.size()) + 1], "240") << "what is not whole is dropped";
+}
+
 }  // namespace
 }  // namespace moraine

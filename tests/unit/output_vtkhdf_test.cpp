@@ -17,14 +17,13 @@ class VtkHdf : public testing::Test {
   void SetUp() override {
     const auto writer = find_writer("vtkhdf").make(scene_, folder_.path());
     writer->write(sample::frame(scene_, 0));
-    Frame shorter = sample::frame(scene_, 60);
     for (int i = 0; i < 3; ++i) {
-      shorter.elements.id.pop_back();
-      shorter.elements.sub_model.pop_back();
-      shorter.elements.shape.pop_back();
-      shorter.elements.state.pop_back();
+      shorter_.elements.id.pop_back();
+      shorter_.elements.sub_model.pop_back();
+      shorter_.elements.shape.pop_back();
+      shorter_.elements.state.pop_back();
     }
-    writer->write(shorter);
+    writer->write(shorter_);
     writer->write(sample::frame(scene_, 120));
     writer->finish();
   }
@@ -46,6 +45,7 @@ class VtkHdf : public testing::Test {
   using Integers = std::vector<std::int64_t>;
   const sample::Folder folder_{"vtkhdf"};
   const Scene scene_ = sample::scene();
+  Frame shorter_ = sample::frame(scene_, 60);
 };
 
 TEST_F(VtkHdf, StepsSayWhereEachFrameBegins) {
@@ -111,6 +111,43 @@ TEST_F(VtkHdf, VtkReadsTheFramesAsParts) {
     EXPECT_EQ(seen["points"][17 + i][0], last.elements.state[i].pose.position.x());
     EXPECT_EQ(seen["point_data"]["id"][17 + i], last.elements.id[i]);
     EXPECT_EQ(seen["point_data"]["velocity"][17 + i][2], last.elements.state[i].twist.linear.z());
+  }
+}
+
+/// Frames from 60 on are written again, as after a restart from step 50; the file is then as if nothing had happened.
+TEST_F(VtkHdf, GoesOnAfterARestart) {
+  const auto tables = [&] {
+    std::vector<std::vector<double>> all;
+    for (const char* name : {"Steps/Values", "Steps/PartOffsets", "Steps/NumberOfParts", "Steps/PointOffsets",
+                             "Steps/CellOffsets", "Steps/ConnectivityIdOffsets", "Steps/PointDataOffsets/velocity",
+                             "NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds", "Points", "Connectivity",
+                             "Offsets", "Types", "PointData/id", "PointData/orientation"})
+      all.push_back(table<double>(name, H5T_NATIVE_DOUBLE));
+    return all;
+  };
+  const auto before = tables();
+  Scene scene = scene_;
+  scene.run.restart = "latest";
+  for (const Frame& frame : {shorter_, sample::frame(scene, 120)}) {
+    const auto writer = find_writer("vtkhdf").make(scene, folder_.path());
+    writer->write(frame);
+    writer->finish();
+    if (frame.step == 60) {
+      EXPECT_EQ(table<double>("Steps/Values", H5T_NATIVE_DOUBLE), (std::vector<double>{0, 30}));
+    }
+  }
+  EXPECT_EQ(tables(), before);
+}
+
+TEST_F(VtkHdf, IsRefusedIfItCannotGoOn) {
+  Scene scene = scene_;
+  scene.run.restart = "latest";
+  std::filesystem::resize_file(folder_ / "elements.vtkhdf", 1000);
+  try {
+    find_writer("vtkhdf").make(scene, folder_.path());
+    FAIL() << "expected IoError";
+  } catch (const IoError& e) {
+    EXPECT_NE(std::string(e.what()).find("move it away"), std::string::npos) << e.what();
   }
 }
 
