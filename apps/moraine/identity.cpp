@@ -43,9 +43,12 @@ void put(ByteWriter& w, const Bond& b) {
   for (const double x : {b.rest_length, b.stiffness, b.damping, b.break_length}) w.put(x);
 }
 
+void put(ByteWriter& w, const Material& m) {
+  for (const double x : {m.normal_stiffness, m.young, m.poisson}) w.put(x);
+}
+
 void put(ByteWriter& w, const PairLaw& law) {
-  w.put(law.friction);
-  w.put(law.restitution);
+  for (const double x : {law.friction, law.restitution, law.rolling_friction}) w.put(x);
 }
 
 void put(ByteWriter& w, const RunSettings& r) {
@@ -71,6 +74,7 @@ std::string identity(const Scene& scene) {
   put_each(w, scene.elements);
   put_each(w, scene.boundaries);
   put_each(w, scene.bonds);
+  put_each(w, scene.materials.materials);
   put_each(w, scene.materials.pairs);
   w.put(scene.time.dt);
   w.put(scene.time.substeps);
