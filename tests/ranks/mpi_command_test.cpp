@@ -102,8 +102,7 @@ TEST_F(Mpi, GoesOnAfterAKill) {
   const std::string steps = "--steps 1500 --checkpoint-every 20 ";
   const std::string whole = hash(0, steps);
   fs::remove_all(out_);
-  const Ended killed =
-      shell(line(2, steps) + " & sleep 2; pkill -9 -n -f 'moraine run.*" + out_.filename().string() + "'; wait $!");
+  const Ended killed = shell(line(2, steps) + " & sleep 2; pkill -9 -n -P $!; wait $!");
   EXPECT_NE(killed.status, 0);
   EXPECT_NE(killed.text.find("--restart latest"), std::string::npos) << killed.text;
   EXPECT_EQ(hash(3, steps + "--restart latest"), whole);
