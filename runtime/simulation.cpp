@@ -18,13 +18,14 @@ namespace {
 
 Transport& chosen(Transport* transport) { return transport ? *transport : alone(); }
 
-std::vector<int> over_ranks(Transport& transport, int own) {
+template <class Value>
+std::vector<Value> over_ranks(Transport& transport, Value own) {
   Bytes told;
   write_records(told, std::vector{own});
-  std::vector<int> all;
+  std::vector<Value> all;
   for (const Bytes& bytes : transport.all_gather(told)) {
     std::span<const std::byte> in(bytes);
-    all.push_back(read_records<int>(in).at(0));
+    all.push_back(read_records<Value>(in).at(0));
   }
   return all;
 }
@@ -51,27 +52,27 @@ Simulation::Simulation(Model& model, const Options& options, Hooks hooks)
       balance_(options.balance, transport_),
       checkpoints_(options.checkpoint, transport_) {
   place_if_new(model_, transport_);
-  if (!options_.trace.file.empty())
-    recorder_.emplace(options_.trace, trace_settings(), transport_, executor_.workers());
+  if (!options_.trace.file.empty()) recorder_.emplace(options_.trace, settings(), transport_, executor_.workers());
 }
 
-TraceSettings Simulation::trace_settings() const {
-  TraceSettings s{.title = options_.trace.title,
-                  .scheduler = options_.scheduler,
-                  .balancer = options_.balance.balancer,
-                  .predictor = options_.balance.predictor,
-                  .balance_every = options_.balance.every,
-                  .balance_measured = options_.balance.measured,
-                  .sub_models = static_cast<std::int64_t>(model_.size()),
-                  .rounds_per_step = options_.trace.rounds_per_step,
-                  .threads = over_ranks(transport_, executor_.workers()),
-                  .cores = over_ranks(transport_, threads_for(transport_)),
-                  .stages = {},
-                  .receives = {},
-                  .counters = {},
-                  .from = options_.trace.from,
-                  .to = options_.trace.to,
-                  .every = options_.trace.every};
+TraceSettings Simulation::settings() const {
+  TraceSettings s{
+      .title = options_.trace.title,
+      .scheduler = options_.scheduler,
+      .balancer = options_.balance.balancer,
+      .predictor = options_.balance.predictor,
+      .balance_every = options_.balance.every,
+      .balance_measured = options_.balance.measured,
+      .sub_models = static_cast<std::int64_t>(model_.size()),
+      .rounds_per_step = options_.trace.rounds_per_step,
+      .threads = over_ranks(transport_, executor_.workers()),
+      .cores = over_ranks(transport_, usable_cores() / static_cast<double>(transport_.ranks_on_these_cores())),
+      .stages = {},
+      .receives = {},
+      .counters = {},
+      .from = options_.trace.from,
+      .to = options_.trace.to,
+      .every = options_.trace.every};
   for (const Stage& stage : model_.stages()) {
     s.stages.emplace_back(stage.name);
     s.receives.push_back(stage.receives);

@@ -55,6 +55,9 @@ class Simulation {
   /// state.
   void run(std::int64_t first_round, std::int64_t rounds);
 
+  /// How the run is set up. Collective.
+  TraceSettings settings() const;
+  Model& model() { return model_; }
   int threads() const { return executor_.workers(); }
   Transport& transport() const { return transport_; }
   /// Of this rank, of all rounds so far. What happens between epochs is not in it.
@@ -64,6 +67,8 @@ class Simulation {
   const Rebalance& balance() const { return balance_; }
   /// Of this rank.
   const Mail::Totals& messages() const { return mail_.totals(); }
+  /// From here in the last epoch.
+  std::vector<Mail::Sent> last_sent() const { return mail_.sent(); }
   std::int64_t rounds() const { return rounds_; }
 
  private:
@@ -76,7 +81,6 @@ class Simulation {
   StepGraph predicted_graph();
   void run_epoch(const Epoch& epoch);
   void end_epoch(const Epoch& epoch);
-  TraceSettings trace_settings() const;
   std::optional<RunError> attempt(const StepGraph& graph, const Epoch& epoch);
   void run_task(const StepGraph& graph, const Epoch& epoch, Task task, int worker);
   void note_task(SubModelId id, int worker, const Mail::Carried& carried);

@@ -30,19 +30,13 @@ std::vector<Value> chosen(const std::vector<Value>& list, const Value& traced) {
   return list.empty() ? std::vector{traced} : list;
 }
 
-/// A message's way on the traced machine, if any was sent there; else that of a fast network.
-double default_latency(const Workload& work) { return work.overheads.message > 0 ? work.overheads.message : 2e-6; }
-
 ReplayOptions common_options(const ReplayChoices& c, const Workload& work) {
-  ReplayOptions o;
+  ReplayOptions o = runtime::as_traced(work);
   o.machine.cores = c.cores;
-  o.machine.latency = c.latency >= 0 ? c.latency : default_latency(work);
+  if (c.latency >= 0) o.machine.latency = c.latency;
   o.machine.bandwidth = c.bandwidth;
   o.machine.speed = c.speed;
-  o.machine.overheads = work.overheads;
-  o.predictor = work.settings.predictor;
-  o.balance_every = c.balance_every > 0 ? c.balance_every * work.settings.rounds_per_step : work.settings.balance_every;
-  o.balance_measured = work.settings.balance_measured;
+  if (c.balance_every > 0) o.balance_every = c.balance_every * work.settings.rounds_per_step;
   o.copies = c.copies;
   return o;
 }

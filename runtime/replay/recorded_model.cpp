@@ -3,6 +3,8 @@
 
 #include <numeric>
 
+#include "runtime/replay/rearrange.hpp"
+
 namespace moraine::runtime {
 
 std::span<const SubModelId> RecordedModel::Member::sources(int stage) const {

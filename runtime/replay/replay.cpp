@@ -199,6 +199,21 @@ void check(const ReplayOptions& o) {
 
 }  // namespace
 
+ReplayOptions as_traced(const Workload& work) {
+  const TraceSettings& s = work.settings;
+  ReplayOptions o;
+  o.machine.ranks = s.ranks();
+  o.machine.threads = s.threads.empty() ? 1 : s.threads.front();
+  o.machine.scheduler = s.scheduler;
+  o.machine.latency = work.overheads.message > 0 ? work.overheads.message : Machine{}.latency;
+  o.machine.overheads = work.overheads;
+  o.balancer = s.balancer;
+  o.predictor = s.predictor;
+  o.balance_every = s.balance_every;
+  o.balance_measured = s.balance_measured;
+  return o;
+}
+
 Prediction replay(const Workload& work, const ReplayOptions& options) {
   check(options);
   return Replay(work, options).run();

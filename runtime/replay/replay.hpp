@@ -16,6 +16,10 @@ struct ReplayOptions {
   bool initial_by_cost = false;  ///< first owners know the first epoch's predicted loads; runs take them as equal
 };
 
+/// Ranks, threads, scheduler, balancer and overheads of the traced run, a core for each thread. A message takes 2 us if
+/// none was sent between ranks.
+ReplayOptions as_traced(const Workload& work);
+
 /// Seconds of simulated time.
 struct Prediction {
   double makespan = 0;

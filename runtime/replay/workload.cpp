@@ -4,11 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
-#include <span>
 
 #include "runtime/trace/trace_file.hpp"
 
@@ -180,7 +178,7 @@ class Reader {
     for (const TaskRecord* t : tasks) {
       const TaskRecord*& before = last[{t->rank, t->worker}];
       if (before != nullptr && before->epoch == t->epoch)
-        t->ready <= before->end ? next.push_back(t->start - before->end) : wake.push_back(t->start - t->ready);
+        (t->handed <= before->end ? next : wake).push_back(t->start - t->handed);
       if (t->release == Release::message) message.push_back(t->ready - t->sent);
       before = t;
     }
@@ -194,36 +192,6 @@ class Reader {
   std::vector<std::map<int, RankEpoch>> ranks_;  ///< per epoch, by rank
 };
 
-/// Messages between a pair of neighbours, as if these were 0 and 1.
-using PairMessages = std::vector<SizedMessage>;
-
-std::vector<PairMessages> pairs_of(const WorkEpoch& epoch) {
-  std::map<std::pair<SubModelId, SubModelId>, PairMessages> pairs;
-  for (const SizedMessage& m : epoch.messages) {
-    const auto [low, high] = std::minmax(m.message.from, m.message.to);
-    if (low == high) continue;
-    SizedMessage generic = m;
-    generic.message.from = m.message.from == low ? 0 : 1;
-    generic.message.to = 1 - generic.message.from;
-    pairs[{low, high}].push_back(generic);
-  }
-  std::vector<PairMessages> out;
-  for (auto& [pair, messages] : pairs) out.push_back(std::move(messages));
-  return out;
-}
-
-double bytes_of(const PairMessages& pair) {
-  return std::accumulate(pair.begin(), pair.end(), 0.0,
-                         [](double sum, const SizedMessage& m) { return sum + m.bytes; });
-}
-
-std::size_t face(std::size_t sub_models, std::size_t pairs) {
-  const auto n = static_cast<double>(sub_models);
-  const double neighbours = 2 * static_cast<double>(pairs) / n;
-  const double side = neighbours <= 2 ? 1.0 : neighbours <= 8 ? std::sqrt(n) : std::cbrt(n * n);
-  return std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(side)), 1, sub_models);
-}
-
 }  // namespace
 
 double Workload::seconds() const {
@@ -233,32 +201,5 @@ double Workload::seconds() const {
 }
 
 Workload workload_of(const Trace& trace, std::int64_t epochs) { return Reader(trace, epochs).read(); }
-
-std::vector<SizedMessage> side_by_side(const WorkEpoch& epoch, std::size_t sub_models, std::size_t copies) {
-  std::vector<SizedMessage> out;
-  for (std::size_t c = 0; c < copies; ++c)
-    for (SizedMessage m : epoch.messages) {
-      m.message.from += static_cast<SubModelId>(c * sub_models);
-      m.message.to += static_cast<SubModelId>(c * sub_models);
-      out.push_back(m);
-    }
-  std::vector<PairMessages> pairs = pairs_of(epoch);
-  if (copies == 1 || pairs.empty()) return out;
-  const auto typical = pairs.begin() + static_cast<std::ptrdiff_t>(pairs.size() / 2);
-  std::ranges::nth_element(pairs, typical, {}, bytes_of);
-  const std::size_t joined = face(sub_models, pairs.size());
-  for (std::size_t c = 0; c + 1 < copies; ++c)
-    for (std::size_t i = 0; i < joined; ++i) {
-      const std::array ends{static_cast<SubModelId>((c + 1) * sub_models - joined + i),
-                            static_cast<SubModelId>((c + 1) * sub_models + i)};
-      for (SizedMessage m : *typical) {
-        m.message.from = ends[m.message.from];
-        m.message.to = ends[m.message.to];
-        out.push_back(m);
-      }
-    }
-  std::ranges::sort(out, {}, &SizedMessage::message);
-  return out;
-}
 
 }  // namespace moraine::runtime

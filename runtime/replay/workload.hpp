@@ -44,8 +44,8 @@ struct WorkEpoch {
 
 /// What the traced machine spent on a task beside its work, means: what the operating system takes is in them.
 struct Overheads {
-  double next = 0;     ///< seconds from the end of a task to the start of the next on the same worker, if one is ready
-  double wake = 0;     ///< seconds from a task being ready to its start on a worker that waited for it
+  double next = 0;     ///< seconds from a task being handed to a worker that has just ended one to its start
+  double wake = 0;     ///< the same, to a worker that waited
   double message = 0;  ///< seconds from sending a message to another rank to what it released being ready; 0: none sent
 };
 
@@ -63,11 +63,5 @@ struct Workload {
 
 /// Of at most `epochs` epochs. Errors: TraceError if the trace holds no complete epoch.
 Workload workload_of(const Trace& trace, std::int64_t epochs = -1);
-
-/// The messages of an epoch of `copies` copies of the model in a row. Copy c has the sub-models c * n ... c * n + n
-/// - 1. The last f of a copy are joined to the first f of the next one, in order, with the messages of a typical pair
-/// of neighbours. f is the side of a cut in as many dimensions as the number of neighbours suggests: 1 for up to 2 of
-/// them on average, the square root of n for up to 8, else n^(2/3). No neighbours: no joins.
-std::vector<SizedMessage> side_by_side(const WorkEpoch& epoch, std::size_t sub_models, std::size_t copies);
 
 }  // namespace moraine::runtime

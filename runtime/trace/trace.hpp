@@ -132,7 +132,7 @@ struct TraceSettings {
   std::int64_t sub_models = 0;
   std::int64_t rounds_per_step = 1;
   std::vector<int> threads;           ///< per rank
-  std::vector<int> cores;             ///< per rank: that its threads may use
+  std::vector<double> cores;          ///< per rank: its share of those it may use
   std::vector<std::string> stages;    ///< names
   std::vector<int> receives;          ///< per stage: the stage whose messages it reads, or -1
   std::vector<std::string> counters;  ///< names, at most TaskRecord::max_counters

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "runtime/balance/registry.hpp"
+#include "runtime/replay/rearrange.hpp"
 #include "runtime/schedule/registry.hpp"
 #include "runtime/trace/trace_file.hpp"
 
