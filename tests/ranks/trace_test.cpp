@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <set>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
 
+#include "runtime/profile/profile.hpp"
 #include "runtime/simulation.hpp"
 #include "runtime/trace/chrome.hpp"
 #include "runtime/trace/task_index.hpp"
@@ -88,6 +91,61 @@ TEST_F(Traced, IsTheSameInJson) {
   EXPECT_EQ(again.lists.phases.size(), trace.lists.phases.size());
   EXPECT_EQ(again.lists.messages.size(), trace.lists.messages.size());
   EXPECT_EQ(again.settings.stages, trace.settings.stages);
+}
+
+/// What viewers need: complete events with a time and a length that do not overlap in their row, and of every arrow one
+/// beginning and one end.
+TEST_F(Traced, JsonIsWellFormedForViewers) {
+  run(to("viewers"));
+  const Trace trace = read_trace(file_);
+  const std::filesystem::path file = file_.string() + ".json";
+  write_chrome(trace, file);
+  const auto json = nlohmann::json::parse(std::ifstream(file));
+  std::filesystem::remove(file);
+  std::map<std::size_t, std::pair<int, int>> arrows;  // beginnings and ends by id
+  std::map<std::pair<int, int>, double> until;        // by process and thread
+  std::size_t tasks = 0;
+  for (const auto& e : json.at("traceEvents")) {
+    const std::string kind = e.at("ph");
+    if (kind == "s") ++arrows[e.at("id")].first;
+    if (kind == "f") ++arrows[e.at("id")].second;
+    if (kind != "X") continue;
+    double& end = until.try_emplace({e.at("pid"), e.at("tid")}, -1e12).first->second;
+    EXPECT_GE(e.at("ts").get<double>(), end - 0.002);
+    EXPECT_GE(e.at("dur").get<double>(), 0);
+    end = e.at("ts").get<double>() + e.at("dur").get<double>();
+    tasks += e.at("cat") == "task";
+  }
+  EXPECT_EQ(tasks, trace.lists.tasks.size());
+  std::size_t released = 0;
+  for (const TaskRecord& t : trace.lists.tasks) released += t.release != Release::start;
+  EXPECT_EQ(arrows.size(), released);
+  for (const auto& [id, ends] : arrows) EXPECT_EQ(ends, std::pair(1, 1)) << id;
+}
+
+/// The chain back from the last task of each epoch covers it without gaps, and no worker's time gets lost.
+TEST_F(Traced, ProfilesAddUp) {
+  run(to("profile"));
+  const Trace trace = read_trace(file_);
+  const Profile p = profile_of(trace);
+  for (std::size_t i = 1; i < p.path.segments.size(); ++i) {
+    const Segment &a = p.path.segments[i - 1], &b = p.path.segments[i];
+    if (a.task->epoch == b.task->epoch) EXPECT_DOUBLE_EQ(a.end, b.start);
+    EXPECT_GT(b.end, b.start);
+  }
+  double spans = 0;
+  for (const EpochLoad& e : p.epochs) spans += e.end - e.start;
+  EXPECT_NEAR(p.path.tasks + p.path.messages + p.path.scheduling, spans, 1e-9);
+  EXPECT_EQ(p.path.segments.front().task->in_epoch, 0);
+  for (std::size_t rank = 0; rank < p.ranks.size(); ++rank) {
+    double phases = 0;
+    for (const PhaseRecord& r : trace.lists.phases) phases += r.rank == static_cast<int>(rank) ? r.seconds() : 0;
+    EXPECT_NEAR(p.ranks[rank].total(), 2 * phases, 0.02 * phases) << "two workers";
+  }
+  double seconds = 0;
+  for (const SubModelProfile& s : p.sub_models) seconds += s.seconds;
+  EXPECT_NEAR(seconds, p.all.busy, 1e-9);
+  EXPECT_GT(p.balance.carried_out, 0);
 }
 
 TEST_F(Traced, KeepsToItsWindow) {
