@@ -6,12 +6,15 @@
 #include <chrono>
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "commands.hpp"
 #include "options.hpp"
 #include "physics/errors.hpp"
+#include "profile.hpp"
 #include "replay.hpp"
 #include "runtime/migrate/checkpoint.hpp"
 #include "runtime/run_error.hpp"
@@ -76,9 +79,103 @@ int guarded(moraine::runtime::Transport& transport, const std::function<int()>& 
   return status;
 }
 
-int run_everywhere(const std::function<moraine::Scene()>& read) {
+// What can be chosen for each command.
+
+struct RunChoices {
+  moraine::app::SceneOptions scene;
+  bool quiet = false;
+
+  void add_to(CLI::App& command) {
+    scene.add_to(command);
+    command.add_flag("--quiet", quiet, "no progress, only the closing summary's warnings")->envname("MORAINE_QUIET");
+  }
+  moraine::Scene read() const {
+    moraine::Scene read = scene.read();
+    read.output.quiet = read.output.quiet || quiet;
+    return read;
+  }
+};
+
+struct InfoChoices {
+  moraine::app::SceneOptions scene;
+  int ranks = 1;
+
+  void add_to(CLI::App& command) {
+    scene.add_to(command);
+    command.add_option("--ranks", ranks, "ranks that would share the scene")->check(CLI::PositiveNumber);
+  }
+};
+
+struct RenderChoices {
+  std::string folder;
+  int width = 1200;
+
+  void add_to(CLI::App& command) {
+    command.add_option("folder", folder, "folder of a run")->required();
+    command.add_option("--width", width, "pixels")->check(CLI::Range(200, 8000));
+  }
+};
+
+struct NoChoices {
+  void add_to(CLI::App&) {}
+};
+
+int run_everywhere(const RunChoices& choices) {
   moraine::runtime::MpiSession session;
-  return guarded(session.transport(), [&] { return moraine::app::run(read(), session.transport()); });
+  return guarded(session.transport(), [&] { return moraine::app::run(choices.read(), session.transport()); });
+}
+
+/// A table of commands, each with what can be chosen for it.
+class Commands {
+ public:
+  explicit Commands(CLI::App& app) : app_(app) {}
+
+  template <class Choices>
+  void add(const char* name, const char* help, std::function<int(const Choices&)> call) {
+    const auto choices = std::make_shared<Choices>();
+    CLI::App* command = app_.add_subcommand(name, help);
+    choices->add_to(*command);
+    rows_.push_back({command, [choices, call] { return call(*choices); }});
+  }
+
+  /// Does what the command line asks for.
+  int call() const {
+    for (const Row& row : rows_)
+      if (*row.command) return row.call();
+    return InputError::exit_status;
+  }
+
+ private:
+  struct Row {
+    CLI::App* command;
+    std::function<int()> call;
+  };
+  CLI::App& app_;
+  std::vector<Row> rows_;
+};
+
+/// A command that one process does alone.
+template <class Choices, class Function>
+std::function<int(const Choices&)> alone(const Function& command) {
+  return [command](const Choices& choices) { return guarded([&] { return command(choices); }); };
+}
+
+void add_all(Commands& commands) {
+  namespace app = moraine::app;
+  commands.add<RunChoices>("run", "run a scene", run_everywhere);
+  commands.add<InfoChoices>("info", "what would run, without running it", alone<InfoChoices>([](const InfoChoices& c) {
+                              return app::info(c.scene.read(), c.ranks);
+                            }));
+  commands.add<NoChoices>("list", "engines, splits, couplings, schedulers, output formats",
+                          alone<NoChoices>([](const NoChoices&) { return app::list(); }));
+  commands.add<app::ProfileChoices>("profile", "where the time of a traced run went, and what would help",
+                                    alone<app::ProfileChoices>(app::profile));
+  commands.add<app::ReplayChoices>("replay",
+                                   "a traced run on other ranks, cores, schedulers and balancers, without running it",
+                                   alone<app::ReplayChoices>(app::replay));
+  commands.add<RenderChoices>("render", "pictures of a run's frames", alone<RenderChoices>([](const RenderChoices& c) {
+                                return app::render(c.folder, c.width);
+                              }));
 }
 
 }  // namespace
@@ -87,42 +184,12 @@ int main(int argc, char** argv) {
   CLI::App app{"Discrete element models cut into many worlds of a rigid-body engine, acting as one."};
   app.require_subcommand(1);
   app.set_version_flag("--version", MORAINE_VERSION);
-
-  moraine::app::SceneOptions run_options, info_options;
-  bool quiet = false;
-  CLI::App* run_command = app.add_subcommand("run", "run a scene");
-  run_options.add_to(*run_command);
-  run_command->add_flag("--quiet", quiet, "no progress, only the closing summary's warnings")->envname("MORAINE_QUIET");
-  CLI::App* info = app.add_subcommand("info", "what would run, without running it");
-  info_options.add_to(*info);
-  int ranks = 1;
-  info->add_option("--ranks", ranks, "ranks that would share the scene")->check(CLI::PositiveNumber);
-  CLI::App* list = app.add_subcommand("list", "engines, splits, couplings, schedulers, output formats");
-  moraine::app::ReplayChoices replay_choices;
-  CLI::App* replay =
-      app.add_subcommand("replay", "a traced run on other ranks, cores, schedulers and balancers, without running it");
-  replay_choices.add_to(*replay);
-  std::string folder;
-  int width = 1200;
-  CLI::App* render = app.add_subcommand("render", "pictures of a run's frames");
-  render->add_option("folder", folder, "folder of a run")->required();
-  render->add_option("--width", width, "pixels")->check(CLI::Range(200, 8000));
-
+  Commands commands(app);
+  add_all(commands);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : InputError::exit_status;
   }
-  if (*run_command)
-    return run_everywhere([&] {
-      moraine::Scene scene = run_options.read();
-      scene.output.quiet = scene.output.quiet || quiet;
-      return scene;
-    });
-  return guarded([&] {
-    if (*info) return moraine::app::info(info_options.read(), ranks);
-    if (*list) return moraine::app::list();
-    if (*replay) return moraine::app::replay(replay_choices);
-    return moraine::app::render(folder, width);
-  });
+  return commands.call();
 }
