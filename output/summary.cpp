@@ -23,11 +23,28 @@ Json json_of(const Summary::Ghosts& g) {
           {"fraction_final", g.fraction_final}};
 }
 
-Json json_of(const Summary::Load& l) {
+Json json_of(const Summary::Profile::Share& s) { return {{"min", s.min}, {"mean", s.mean}, {"max", s.max}}; }
+
+Json costliest_of(const Summary::Profile& p) {
+  Json out = Json::array();
+  for (const auto& c : p.costliest) out.push_back({{"sub_model", c.sub_model}, {"share", c.share}});
+  return out;
+}
+
+Json json_of(const Summary::Load& l, const Summary::Profile& p) {
   return {{"imbalance", l.imbalance},
           {"utilisation", l.utilisation},
           {"waiting_fraction", l.waiting_fraction},
-          {"migrations", l.migrations}};
+          {"migrations", l.migrations},
+          {"time",
+           {{"busy", json_of(p.busy)},
+            {"imbalance", json_of(p.imbalance)},
+            {"messages", json_of(p.messages)},
+            {"scheduling", json_of(p.scheduling)},
+            {"between_epochs", json_of(p.between)}}},
+          {"costliest", costliest_of(p)},
+          {"cure", p.cure.change.empty() ? Json() : Json{{"change", p.cure.change}, {"gain", p.cure.gain}}},
+          {"sentence", p.sentence}};
 }
 
 Json json_of(const Summary::Balance::Round& r) {
@@ -80,7 +97,7 @@ Json results_of(const Summary& s) {
           {"x95", s.x95},
           {"overlap", {{"max", s.overlap.max}, {"mean", s.overlap.mean}}},
           {"coupling_residual", s.coupling_residual},
-          {"load", json_of(s.load)},
+          {"load", json_of(s.load, s.profile)},
           {"balance", json_of(s.balance)},
           {"messages", json_of(s.messages)},
           {"step_share", s.step_share},
@@ -98,6 +115,27 @@ std::string ghosts_text(const Summary::Ghosts& g) {
 std::string load_text(const Summary::Load& l) {
   return fmt::format("{:.0f} % of the threads' time at work, imbalance {:.2f}, {:.0f} % waiting, {} migrations",
                      100 * l.utilisation, l.imbalance, 100 * l.waiting_fraction, l.migrations);
+}
+
+/// A small table: what became of the time of workers, over ranks.
+std::string time_text(const Summary::Profile& p) {
+  std::string text = fmt::format("  {:<11} {:<16}{:>7}{:>8}{:>8}\n", "time %", "of ranks", "min", "mean", "max");
+  const auto line = [&](const char* name, const Summary::Profile::Share& s) {
+    text += fmt::format("  {:<11} {:<16}{:>7.1f}{:>8.1f}{:>8.1f}\n", "", name, 100 * s.min, 100 * s.mean, 100 * s.max);
+  };
+  line("at tasks", p.busy);
+  line("imbalance", p.imbalance);
+  line("messages", p.messages);
+  line("scheduling", p.scheduling);
+  line("between epochs", p.between);
+  return text;
+}
+
+std::string costliest_text(const Summary::Profile& p) {
+  std::string text;
+  for (const auto& c : p.costliest)
+    text += fmt::format("{}sub-model {}: {:.1f} % of the work", text.empty() ? "" : ", ", c.sub_model, 100 * c.share);
+  return text;
 }
 
 std::string stages_text(const std::map<std::string, double>& shares) {
@@ -146,6 +184,8 @@ std::string summary_text(const Summary& s) {
   text += row("ghosts", ghosts_text(s.ghosts));
   if (s.bonds.total) text += row("bonds", fmt::format("{} of {} broken", s.bonds.broken, s.bonds.total));
   text += row("errors", errors_text(s)) + row("state hash", s.state_hash);
+  if (!s.profile.sentence.empty())
+    text += time_text(s.profile) + row("costliest", costliest_text(s.profile)) + row("profile", s.profile.sentence);
   for (const std::string& warning : s.warnings) text += row("warning", warning);
   return text;
 }

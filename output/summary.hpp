@@ -53,6 +53,23 @@ struct Summary {
     double waiting_fraction = 0;  ///< share spent waiting for others
     std::uint64_t migrations = 0;
   } load;
+  /// Where the time of workers went: shares of it, over ranks.
+  struct Profile {
+    struct Share {
+      double min = 0, mean = 0, max = 0;
+    };
+    Share busy, imbalance, messages, scheduling, between;
+    struct Costly {
+      std::uint32_t sub_model = 0;
+      double share = 0;  ///< of the busy time
+    };
+    std::vector<Costly> costliest;
+    struct Cure {
+      std::string change;  ///< what to do; empty: nothing that was tried helps
+      double gain = 0;     ///< predicted, a share of the run time
+    } cure;
+    std::string sentence;  ///< all that in one
+  } profile;
   struct Balance {
     double seconds = 0;      ///< spent by the slowest rank on collecting, planning, moving
     double moved_bytes = 0;  ///< by all ranks

@@ -9,6 +9,7 @@
 #include "ghosting/collect.hpp"
 #include "ghosting/fields.hpp"
 #include "ghosting/state_hash.hpp"
+#include "run_profile.hpp"
 
 namespace moraine::app {
 namespace {
@@ -111,7 +112,7 @@ Frame capture(const CoupledModel& model, runtime::Transport& transport, std::int
   return frame;
 }
 
-Summary summarise(const CoupledModel& model, const runtime::Simulation& simulation, double wall_s, double loop_wall_s) {
+Summary summarise(const CoupledModel& model, runtime::Simulation& simulation, double wall_s, double loop_wall_s) {
   const Scene& scene = model.scene();
   const ModelStatistics statistics = model.statistics();
   const OverlapStatistics overlaps = model.overlaps();
@@ -158,6 +159,7 @@ Summary summarise(const CoupledModel& model, const runtime::Simulation& simulati
   s.coupling_residual = statistics.coupling_residual;
   s.load = {load.imbalance(), load.utilisation(), load.waiting_fraction(),
             static_cast<std::uint64_t>(simulation.balance().migrations())};
+  s.profile = profile_of(simulation);
   s.balance = summarise(simulation.balance(), transport, scene.time.substeps);
   s.messages = summarise_messages(simulation);
   for (std::size_t i = 0; i < load.stages.size(); ++i)

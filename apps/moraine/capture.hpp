@@ -12,6 +12,6 @@ namespace moraine::app {
 /// Collective; complete on rank 0, empty elsewhere.
 Frame capture(const CoupledModel& model, runtime::Transport& transport, std::int64_t step);
 /// Collective; complete on rank 0.
-Summary summarise(const CoupledModel& model, const runtime::Simulation& simulation, double wall_s, double loop_wall_s);
+Summary summarise(const CoupledModel& model, runtime::Simulation& simulation, double wall_s, double loop_wall_s);
 
 }  // namespace moraine::app
