@@ -62,9 +62,10 @@ class LoadsOfTrace {
   /// Tasks of a worker come in the order of time.
   void add(const TaskRecord& t) {
     LoadRecord& load = ranks_.at(static_cast<std::size_t>(t.rank)).load;
-    load.workers.at(static_cast<std::size_t>(t.worker)).add(t.seconds());
-    load.stages.at(static_cast<std::size_t>(t.stage)).add(t.seconds());
-    load.nodes.at(t.sub_model * load.stages.size() + static_cast<std::size_t>(t.stage)).add(t.seconds());
+    const Taken taken{t.seconds(), t.seconds()};
+    load.workers.at(static_cast<std::size_t>(t.worker)).add(taken);
+    load.stages.at(static_cast<std::size_t>(t.stage)).add(taken);
+    load.nodes.at(t.sub_model * load.stages.size() + static_cast<std::size_t>(t.stage)).add(taken);
     Work& work = work_[{t.epoch, t.rank}];
     work.last = std::max(work.last, t.end);
     double& idle = idle_.try_emplace({t.epoch, t.rank, t.worker}, work.begin).first->second;
@@ -144,7 +145,7 @@ std::vector<RankLoad> loads_of(const Trace& trace) { return LoadsOfTrace(trace).
 
 std::vector<RankLoad> gather_loads(const RankLoad& own, Transport& transport) {
   std::vector<RankLoad> all;
-  for (const Bytes& bytes : gather(transport, 0, pack(own))) all.push_back(unpack(bytes));
+  for (const Bytes& bytes : transport.gather(0, pack(own))) all.push_back(unpack(bytes));
   return all;
 }
 

@@ -35,7 +35,7 @@ std::vector<StageProfile> stages_of(const Trace& trace, std::span<const RankLoad
   for (const TaskRecord& t : trace.lists.tasks) tasks.at(static_cast<std::size_t>(t.stage)).push_back(t.seconds());
   for (std::size_t s = 0; s < out.size(); ++s) {
     std::vector<double> ranks;
-    for (const RankLoad& load : loads) ranks.push_back(load.load.stages.at(s).seconds);
+    for (const RankLoad& load : loads) ranks.push_back(load.load.stages.at(s).taken.seconds);
     out[s] = {std::accumulate(ranks.begin(), ranks.end(), 0.0), static_cast<std::int64_t>(tasks[s].size()),
               range_of(tasks[s]), range_of(ranks)};
   }

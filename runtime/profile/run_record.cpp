@@ -25,7 +25,7 @@ std::vector<Record> gathered(Transport& transport, const std::vector<Record>& ow
   Bytes bytes;
   write_records(bytes, own);
   std::vector<Record> all;
-  for (const Bytes& b : gather(transport, 0, std::move(bytes))) {
+  for (const Bytes& b : transport.gather(0, bytes)) {
     std::span<const std::byte> in(b);
     const auto records = read_records<Record>(in);
     all.insert(all.end(), records.begin(), records.end());
@@ -85,12 +85,10 @@ double mean_overhead(const RunRecord& run) {
 std::vector<double> mean_seconds(const RunRecord& run, std::size_t nodes) {
   std::vector<Busy> all(nodes);
   for (const RankLoad& rank : run.ranks)
-    for (std::size_t n = 0; n < rank.load.nodes.size(); ++n) {
-      all.at(n).seconds += rank.load.nodes[n].seconds;
-      all[n].tasks += rank.load.nodes[n].tasks;
-    }
+    for (std::size_t n = 0; n < rank.load.nodes.size(); ++n)
+      all.at(n).add(rank.load.nodes[n].taken, rank.load.nodes[n].tasks);
   std::vector<double> out;
-  for (const Busy& b : all) out.push_back(b.tasks > 0 ? b.seconds / static_cast<double>(b.tasks) : 0.0);
+  for (const Busy& b : all) out.push_back(b.tasks > 0 ? b.taken.seconds / static_cast<double>(b.tasks) : 0.0);
   return out;
 }
 
@@ -99,7 +97,7 @@ std::vector<double> mean_seconds(const RunRecord& run, std::size_t nodes) {
 std::vector<double> RunRecord::seconds() const {
   std::vector<double> out(static_cast<std::size_t>(settings.sub_models), 0.0);
   for (const RankLoad& rank : ranks)
-    for (SubModelId id = 0; id < out.size(); ++id) out[id] += rank.load.seconds_of(id);
+    for (SubModelId id = 0; id < out.size(); ++id) out[id] += rank.load.processor_of(id);
   return out;
 }
 

@@ -25,7 +25,7 @@ struct RunRecord {
   double rounds = 0, epochs = 0;
   double elapsed = 0;  ///< seconds, of the slowest rank
 
-  /// Of each sub-model's tasks on all ranks.
+  /// Processor time of each sub-model's tasks on all ranks.
   std::vector<double> seconds() const;
 };
 
