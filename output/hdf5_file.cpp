@@ -88,13 +88,16 @@ Hdf5Handle Hdf5File::create_table(const std::string& name, const Column& rows) {
           H5Dclose};
 }
 
+bool Hdf5File::has(const std::string& name) const {
+  return check(H5Lexists(file_, name.c_str(), H5P_DEFAULT), "cannot look for " + name) > 0;
+}
+
 Hdf5Handle Hdf5File::open_table(const std::string& name) {
   return {check(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), "cannot open table " + name), H5Dclose};
 }
 
 void Hdf5File::append(const std::string& name, const Column& rows) {
-  const bool exists = check(H5Lexists(file_, name.c_str(), H5P_DEFAULT), "cannot look for " + name) > 0;
-  const Hdf5Handle table = exists ? open_table(name) : create_table(name, rows);
+  const Hdf5Handle table = has(name) ? open_table(name) : create_table(name, rows);
   if (rows.tuples() == 0) return;
   hsize_t size[2] = {}, begin[2] = {}, count[] = {rows.tuples(), rows.components};
   check(H5Sget_simple_extent_dims(Hdf5Handle(H5Dget_space(table), H5Sclose), size, nullptr), "cannot measure " + name);
@@ -120,6 +123,7 @@ std::int64_t Hdf5File::number(const std::string& object, const char* name) {
 }
 
 std::vector<double> Hdf5File::numbers(const std::string& name) {
+  if (!has(name)) return {};
   const Hdf5Handle table = open_table(name), space(H5Dget_space(table), H5Sclose);
   std::vector<double> values(
       static_cast<std::size_t>(check(H5Sget_simple_extent_npoints(space), "cannot measure " + name)));
@@ -128,6 +132,7 @@ std::vector<double> Hdf5File::numbers(const std::string& name) {
 }
 
 void Hdf5File::keep(const std::string& name, std::int64_t rows) {
+  if (rows == 0 && !has(name)) return;
   const Hdf5Handle table = open_table(name);
   hsize_t size[2] = {};
   check(H5Sget_simple_extent_dims(Hdf5Handle(H5Dget_space(table), H5Sclose), size, nullptr), "cannot measure " + name);

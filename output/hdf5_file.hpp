@@ -49,7 +49,7 @@ class Hdf5File {
   void append(const std::string& name, std::int64_t row);
   /// The number that attribute() wrote.
   std::int64_t number(const std::string& object, const char* name);
-  /// A table of one column, as doubles.
+  /// A table of one column, as doubles; nothing if there is no such table.
   std::vector<double> numbers(const std::string& name);
   /// Drops all rows of a table but the first `rows`, which must be there.
   void keep(const std::string& name, std::int64_t rows);
@@ -57,6 +57,7 @@ class Hdf5File {
   void close();
 
  private:
+  bool has(const std::string& name) const;
   hid_t check(hid_t result, const std::string& what) const;
   Hdf5Handle create_table(const std::string& name, const Column& rows);
   Hdf5Handle open(const std::string& object);

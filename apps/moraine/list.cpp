@@ -9,7 +9,6 @@
 #include "ghosting/split.hpp"
 #include "output/writer.hpp"
 #include "physics/world.hpp"
-#include "runtime/balance/load_model.hpp"
 #include "runtime/balance/registry.hpp"
 #include "runtime/schedule/registry.hpp"
 
@@ -30,7 +29,6 @@ int list() {
   print("couplings", couplings());
   print("schedulers", runtime::schedulers());
   print("balancers", runtime::balancers());
-  print("load predictors", runtime::predictors());
   print("output formats", writers());
   return 0;
 }

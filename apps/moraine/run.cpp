@@ -93,7 +93,6 @@ class Run {
     o.balance.balancer = run.balancer;
     o.balance.every = run.balance_every * substeps;
     o.balance.measured = run.balance_measured;
-    o.balance.predictor = run.balance_predictor;
     o.checkpoint.folder = checkpoint_folder(scene);
     o.checkpoint.every = run.checkpoint_every * substeps;
     o.checkpoint.run = identity(scene);

@@ -81,12 +81,16 @@ void read_time(const Node& root, TimeSettings& time) {
 void read_run(const Node& root, RunSettings& run) {
   const auto node = root.find("run");
   if (!node) return;
-  node->allow({"engine",           "engine_profile",   "sub_models", "split",
-               "coupling",         "coupling_leak",    "skin",       "recut_ghost_share",
-               "iterations",       "overlap_recovery", "scheduler",  "threads",
-               "balancer",         "balance_every",    "balance_by", "balance_predictor",
-               "checkpoint_every", "restart",          "trace",      "trace_window",
-               "max_speed"});
+  node->allow({"engine",       "engine_profile",
+               "sub_models",   "split",
+               "coupling",     "coupling_leak",
+               "skin",         "recut_ghost_share",
+               "iterations",   "overlap_recovery",
+               "scheduler",    "threads",
+               "balancer",     "balance_every",
+               "balance_by",   "checkpoint_every",
+               "restart",      "trace",
+               "trace_window", "max_speed"});
   run.engine = node->text("engine", run.engine);
   run.engine_profile = node->text("engine_profile", run.engine_profile);
   run.sub_models = read_sub_models(*node);
@@ -102,7 +106,6 @@ void read_run(const Node& root, RunSettings& run) {
   run.balancer = node->text("balancer", run.balancer);
   run.balance_every = read_int(*node, "balance_every", run.balance_every, 1);
   run.balance_measured = read_measured(*node);
-  run.balance_predictor = node->text("balance_predictor", run.balance_predictor);
   run.checkpoint_every = read_int(*node, "checkpoint_every", run.checkpoint_every, 0);
   run.restart = node->text("restart", run.restart);
   run.trace = node->text("trace", run.trace);

@@ -32,14 +32,13 @@ struct RunSettings {
   int iterations = 10;  ///< solver iterations per substep
   double overlap_recovery = 0.1;  ///< share of an overlap that an engine removes per substep; 0 .. 1
   std::string scheduler = "hybrid";
-  int threads = 0;                         ///< of each rank; 0: its share of the cores it may use
-  std::string balancer = "refine";         ///< which rank owns which sub-model
-  int balance_every = 1;                   ///< steps from one balance to the next, at least
-  bool balance_measured = true;            ///< by measured time; else by counted work: the same plans every time
-  std::string balance_predictor = "last";  ///< how the next load follows from those before
-  int checkpoint_every = 0;                ///< steps from one checkpoint to the next, at least; 0: none
-  std::string restart;                     ///< folder of a checkpoint, or "latest"; empty: from the start
-  std::string trace;                       ///< file of what ran where and when; empty: none
+  int threads = 0;                  ///< of each rank; 0: its share of the cores it may use
+  std::string balancer = "refine";  ///< which rank owns which sub-model
+  int balance_every = 1;            ///< steps from one balance to the next, at least
+  bool balance_measured = true;     ///< by measured time; else by counted work: the same plans every time
+  int checkpoint_every = 0;         ///< steps from one checkpoint to the next, at least; 0: none
+  std::string restart;              ///< folder of a checkpoint, or "latest"; empty: from the start
+  std::string trace;                ///< file of what ran where and when; empty: none
   struct TraceWindow {
     std::int64_t from = 0;   ///< steps from .. to - 1
     std::int64_t to = -1;    ///< -1: to the end

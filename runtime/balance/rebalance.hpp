@@ -17,10 +17,10 @@
 namespace moraine::runtime {
 
 struct BalanceOptions {
-  std::string balancer = "refine";   ///< a name of balancers()
-  std::string predictor = "median";  ///< a name of predictors()
-  std::int64_t every = 1;            ///< rounds from one balance to the next, at least
-  bool measured = false;             ///< load is processor time, not counted work: plans then differ from run to run
+  std::string balancer = "refine";  ///< a name of balancers()
+  std::string predictor = "last";   ///< a name of predictors()
+  std::int64_t every = 1;           ///< rounds from one balance to the next, at least
+  bool measured = false;            ///< load is processor time, not counted work: plans then differ from run to run
   BalancerOptions more;
 };
 

@@ -42,8 +42,8 @@ class Communicator {
 };
 
 /// What is collected of every rank's block at once: as much as MPI can count, hence nearly always all.
-struct Round {
-  Round(const std::vector<std::uint64_t>& sizes, std::uint64_t at, std::uint64_t most) : places(sizes.size() + 1) {
+struct Portion {
+  Portion(const std::vector<std::uint64_t>& sizes, std::uint64_t at, std::uint64_t most) : places(sizes.size() + 1) {
     for (const std::uint64_t size : sizes)
       counts.push_back(static_cast<int>(std::min(size - std::min(at, size), most)));
     std::partial_sum(counts.begin(), counts.end(), places.begin() + 1);
@@ -123,17 +123,18 @@ class Mpi final : public Transport {
   }
 
   std::vector<Bytes> all_gather(const Bytes& own) override {
-    return in_rounds(own, true, [this](const std::byte* give, std::byte* take, const Round& round) {
-      MPI_Allgatherv(give, round.counts[static_cast<std::size_t>(rank_)], MPI_BYTE, take, round.counts.data(),
-                     round.places.data(), MPI_BYTE, exchanges_.get());
+    return in_portions(own, true, [this](const std::byte* give, std::byte* take, const Portion& portion) {
+      MPI_Allgatherv(give, portion.counts[static_cast<std::size_t>(rank_)], MPI_BYTE, take, portion.counts.data(),
+                     portion.places.data(), MPI_BYTE, exchanges_.get());
     });
   }
 
   std::vector<Bytes> gather(int root, const Bytes& own) override {
-    return in_rounds(own, rank_ == root, [this, root](const std::byte* give, std::byte* take, const Round& round) {
-      MPI_Gatherv(give, round.counts[static_cast<std::size_t>(rank_)], MPI_BYTE, take, round.counts.data(),
-                  round.places.data(), MPI_BYTE, root, exchanges_.get());
-    });
+    return in_portions(own, rank_ == root,
+                       [this, root](const std::byte* give, std::byte* take, const Portion& portion) {
+                         MPI_Gatherv(give, portion.counts[static_cast<std::size_t>(rank_)], MPI_BYTE, take,
+                                     portion.counts.data(), portion.places.data(), MPI_BYTE, root, exchanges_.get());
+                       });
   }
 
   std::vector<Bytes> exchange(std::vector<Bytes> to) override {
@@ -182,9 +183,9 @@ class Mpi final : public Transport {
     MPI_Request request = MPI_REQUEST_NULL;
   };
 
-  /// Blocks of all ranks, collected `here` and in the same number of rounds everywhere.
+  /// Blocks of all ranks, collected `here` and in the same number of portions everywhere.
   template <class Collect>
-  std::vector<Bytes> in_rounds(const Bytes& own, bool here, const Collect& collect) {
+  std::vector<Bytes> in_portions(const Bytes& own, bool here, const Collect& collect) {
     const std::lock_guard lock(mutex_);
     const std::uint64_t size = own.size();
     std::vector<std::uint64_t> sizes(static_cast<std::size_t>(ranks_));
@@ -192,10 +193,10 @@ class Mpi final : public Transport {
     std::vector<Bytes> all(here ? sizes.size() : 0);
     const std::uint64_t longest = *std::max_element(sizes.begin(), sizes.end()), most = piece / sizes.size();
     for (std::uint64_t at = 0; at < longest; at += most) {
-      const Round round(sizes, at, most);
-      Bytes taken(here ? round.length() : 0);
-      collect(own.data() + std::min(at, size), taken.data(), round);
-      for (std::size_t rank = 0; rank < all.size(); ++rank) round.append(all[rank], taken, rank);
+      const Portion portion(sizes, at, most);
+      Bytes taken(here ? portion.length() : 0);
+      collect(own.data() + std::min(at, size), taken.data(), portion);
+      for (std::size_t rank = 0; rank < all.size(); ++rank) portion.append(all[rank], taken, rank);
     }
     return all;
   }
