@@ -18,6 +18,9 @@ std::map<std::uint32_t, EpochEnds> ends_of(const Trace& trace) {
     e.start = std::min(e.start, t.start);
     if (t.end > e.last->end) e.last = &t;
   }
+  for (const PhaseRecord& p : trace.lists.phases)
+    if (const auto e = out.find(p.epoch); e != out.end() && p.phase == Phase::work)
+      e->second.start = std::min(e->second.start, p.start);
   return out;
 }
 

@@ -38,8 +38,8 @@ struct RankWait {
   double tasks = 0, messages = 0;
 };
 
-/// The chain of tasks, messages and waits from the start of each epoch to its last task. The run cannot be faster
-/// unless the chain gets shorter.
+/// The chain of tasks, messages and waits from when the ranks turn to the tasks of an epoch to the end of its last
+/// task. The run cannot be faster unless the chain gets shorter.
 struct CriticalPath {
   double tasks = 0, messages = 0, scheduling = 0;  ///< seconds; together: of all epochs' tasks
   double between = 0;                              ///< seconds: the rest of the run
