@@ -133,6 +133,7 @@ Workload typical_workload(const RunRecord& run) {
                   .seconds = {},
                   .owner = run.owner,
                   .between = mean_between(run),
+                  .moving = 0,
                   .traced_seconds = run.elapsed / run.epochs};
   const std::vector<double> seconds = mean_seconds(run, out.nodes());
   for (std::int64_t round = 0; round <= epoch.span.rounds; ++round)

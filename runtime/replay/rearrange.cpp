@@ -89,6 +89,7 @@ class FinerCut {
                   .seconds = nodes(epoch.seconds),
                   .owner = {},
                   .between = epoch.between,
+                  .moving = epoch.moving,
                   .traced_seconds = epoch.traced_seconds};
     for (std::size_t s = 0; s < work_.sub_models; ++s) {
       out.memory.insert(out.memory.end(), pieces_, epoch.memory[s] * share(s));

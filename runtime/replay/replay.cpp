@@ -19,6 +19,11 @@ namespace {
 /// All ranks learn something from all.
 double talk(const Machine& machine) { return 2 * std::ceil(std::log2(machine.ranks)) * machine.latency; }
 
+/// Seconds.
+struct Balancing {
+  double collecting = 0, moving = 0;
+};
+
 /// Owners from epoch to epoch, by the code that balances runs.
 class Balance {
  public:
@@ -41,10 +46,10 @@ class Balance {
     note_traffic(model);
   }
 
-  /// Seconds that it takes; `owner` may change.
-  double settle(const WorkEpoch& epoch, const RecordedModel& model, Owners& owner, Prediction& out) {
+  /// What it takes; `owner` may change.
+  Balancing settle(const WorkEpoch& epoch, const RecordedModel& model, Owners& owner, Prediction& out) {
     const std::int64_t round = epoch.span.first_round;
-    if (options_.machine.ranks == 1 || rounds_ == 0 || round < last_round_ + options_.balance_every) return 0;
+    if (options_.machine.ranks == 1 || rounds_ == 0 || round < last_round_ + options_.balance_every) return {};
     last_round_ = round;
     for (SubModelId id = 0; id < load_.size(); ++id) histories_[id].add(load_[id] / rounds_);
     const auto begin = std::chrono::steady_clock::now();
@@ -54,11 +59,11 @@ class Balance {
     ++out.balance_rounds;
     load_.assign(load_.size(), 0.0);
     rounds_ = 0;
-    if (!decision.worthwhile) return talk(options_.machine);
+    if (!decision.worthwhile) return {talk(options_.machine), 0};
     owner = decision.plan;
     out.migrations += decision.moves;
     out.moved_bytes += decision.bytes;
-    return talk(options_.machine) + decision.cost_seconds;
+    return {talk(options_.machine), decision.cost_seconds};
   }
 
  private:
@@ -122,7 +127,7 @@ class Replay {
     for (std::size_t i = 0; i < work_.epochs.size(); ++i) {
       const WorkEpoch& epoch = work_.epochs[i];
       RecordedModel model(work_, epoch, options_.copies);
-      const double balancing = balance_.settle(epoch, model, owner, out_);
+      const Balancing balancing = balance_.settle(epoch, model, owner, out_);
       model.share_out(owner, options_.machine.ranks);
       const ClusterRun run = simulate(model, options_.machine, epoch.span.rounds_with_opening());
       balance_.note(i, model, run);
@@ -156,10 +161,10 @@ class Replay {
     weighted_imbalance_ += even > 0 ? run.elapsed * *std::ranges::max_element(run.busy) / even : run.elapsed;
   }
 
-  void add_between(const WorkEpoch& epoch, const Owners& owner, double balancing) {
+  void add_between(const WorkEpoch& epoch, const Owners& owner, const Balancing& balancing) {
     auto phases = epoch.between.phase;
-    const bool as_traced = same_ranks_ && options_.balancer == work_.settings.balancer;
-    if (!as_traced) of(phases, Phase::balance) = balancing;
+    const bool traced = same_ranks_ && options_.balancer == work_.settings.balancer;
+    if (!traced) of(phases, Phase::balance) = collecting(epoch, balancing) + balancing.moving;
     if (!same_ranks_) {
       const double held = static_cast<double>(most_held(owner, options_.machine.ranks)) /
                           static_cast<double>(most_held(epoch.owner, work_.settings.ranks()));
@@ -169,6 +174,12 @@ class Replay {
     }
     out_.balancing += of(phases, Phase::balance);
     out_.between += std::accumulate(phases.begin(), phases.end(), 0.0) - of(phases, Phase::balance);
+  }
+
+  /// As many ranks as traced collect in the time it took, whatever is made of it.
+  double collecting(const WorkEpoch& epoch, const Balancing& balancing) const {
+    const double took = epoch.between.phase[static_cast<std::size_t>(Phase::balance)];
+    return same_ranks_ ? std::max(0.0, took - epoch.moving) : balancing.collecting;
   }
 
   void close() {

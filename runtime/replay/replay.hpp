@@ -40,7 +40,8 @@ struct Prediction {
 /// they do there: with the traced number of ranks and one copy, as long as it took; else settling neighbours, planning
 /// and checkpoints as long as it took per sub-model held, on the rank that holds most; output as long as it took, times
 /// copies; agreeing 2 * ceil(log2 ranks) latencies. Balancing: if ranks, copies and balancer are those of the trace, as
-/// it took; else collecting (as agreeing) and the forecast cost of moves. The balancer sees what it sees in a run.
+/// it took; else collecting (as it took with the traced ranks, less what moves were forecast to take; else as agreeing)
+/// and the forecast cost of moves. The balancer sees what it sees in a run.
 /// Errors: std::invalid_argument for unknown names or numbers that make no sense.
 Prediction replay(const Workload& work, const ReplayOptions& options);
 

@@ -125,6 +125,8 @@ class Reader {
                                m.messages > 0 ? static_cast<double>(m.bytes) / static_cast<double>(m.messages) : 0.0});
       }
     for (WorkEpoch& e : out_.epochs) std::ranges::sort(e.messages, {}, &SizedMessage::message);
+    for (const BalanceRoundRecord& b : trace_.lists.balance)
+      if (WorkEpoch* e = epoch(b.epoch); e != nullptr && b.carried_out != 0) e->moving += b.cost_seconds;
   }
 
   void read_phases() {

@@ -35,6 +35,7 @@ struct WorkEpoch {
   std::vector<double> seconds;         ///< of each node, round after round, the opening one first
   Owners owner;                        ///< in the traced run
   Between between;
+  double moving = 0;  ///< seconds of between that moves were forecast to take
   double traced_seconds = 0;
 
   double seconds_of(std::size_t node, std::size_t nodes, std::int64_t round) const {
