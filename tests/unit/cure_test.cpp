@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <algorithm>
 
 #include "runtime/replay/rearrange.hpp"
 #include "runtime/sub_model.hpp"
