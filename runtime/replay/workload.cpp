@@ -176,16 +176,20 @@ class Reader {
     std::vector<const TaskRecord*> tasks;
     for (const TaskRecord& t : trace_.lists.tasks) tasks.push_back(&t);
     std::ranges::sort(tasks, {}, &TaskRecord::start);
-    std::vector<double> next, wake, message;
+    std::vector<double> next, wake, message, unnoticed;
     for (const TaskRecord* t : tasks) {
       const TaskRecord*& before = last[{t->rank, t->worker}];
       if (before != nullptr && before->epoch == t->epoch)
         (t->handed <= before->end ? next : wake).push_back(t->start - t->handed);
-      if (t->release == Release::message) message.push_back(t->ready - t->sent);
+      if (t->release == Release::message) {
+        const bool waited = before == nullptr || before->epoch != t->epoch || before->end <= t->sent;
+        (waited ? message : unnoticed).push_back(t->ready - t->sent);
+      }
       before = t;
     }
     // Clocks of ranks agree to some microseconds only, so a message may seem to arrive before it was sent.
-    out_.overheads = {std::max(0.0, mean(next)), std::max(0.0, mean(wake)), std::max(0.0, mean(message))};
+    out_.overheads = {std::max(0.0, mean(next)), std::max(0.0, mean(wake)),
+                      std::max(0.0, mean(message.empty() ? unnoticed : message))};
   }
 
   const Trace& trace_;

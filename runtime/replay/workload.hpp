@@ -45,9 +45,11 @@ struct WorkEpoch {
 
 /// What the traced machine spent on a task beside its work, means: what the operating system takes is in them.
 struct Overheads {
-  double next = 0;     ///< seconds from a task being handed to a worker that has just ended one to its start
-  double wake = 0;     ///< the same, to a worker that waited
-  double message = 0;  ///< seconds from sending a message to another rank to what it released being ready; 0: none sent
+  double next = 0;  ///< seconds from a task being handed to a worker that has just ended one to its start
+  double wake = 0;  ///< the same, to a worker that waited
+  /// Seconds from sending a message to another rank to what it released being ready, where a worker waited for it: one
+  /// that is at a task finds it later and loses nothing. 0: none was sent.
+  double message = 0;
 };
 
 struct Workload {
