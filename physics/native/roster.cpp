@@ -28,16 +28,22 @@ void Roster::remove(Slot slot) {
 }
 
 void Roster::settle() {
-  order_.clear();
+  arrivals_.clear();
   for (Place p = 0; p < size(); ++p)
-    if (!removed_[p]) order_.push_back(p);
-  std::sort(order_.begin(), order_.end(), [&](Place a, Place b) { return id(a) < id(b); });
+    if (!removed_[p]) arrivals_.push_back(p);
+  const auto by_id = [&](Place a, Place b) { return id(a) < id(b); };
+  // Those that were here before are in order.
+  const auto first = std::lower_bound(arrivals_.begin(), arrivals_.end(), settled_);
+  std::sort(first, arrivals_.end(), by_id);
+  order_.resize(arrivals_.size());
+  std::merge(arrivals_.begin(), first, first, arrivals_.end(), order_.begin(), by_id);
   moved_.assign(size(), nowhere);
   for (Place p = 0; p < order_.size(); ++p) moved_[order_[p]] = p;
   reorder(members_, order_);
   removed_.assign(size(), 0);
   for (Place p = 0; p < size(); ++p) places_[members_[p].slot] = p;
   gone_ = 0;
+  settled_ = size();
   unsettled_ = false;
 }
 
@@ -46,6 +52,7 @@ void Roster::restore(std::vector<Member> members, std::size_t slots, std::vector
   free_ = std::move(free);
   removed_.assign(size(), 0);
   gone_ = 0;
+  settled_ = size();
   unsettled_ = false;
   places_.assign(slots, nowhere);
   for (Place p = 0; p < size(); ++p) places_[members_[p].slot] = p;

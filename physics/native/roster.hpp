@@ -33,8 +33,10 @@ class Roster {
   void remove(Slot slot);
 
   bool unsettled() const { return unsettled_; }
-  /// Closes gaps and sorts. Afterwards order() has the old place of every new one, moved() the new place of every old
-  /// one, or nowhere. Cost: n log n.
+  /// How many were there when places were last put in order; newcomers have later places.
+  std::size_t settled() const { return settled_; }
+  /// Closes gaps and sorts newcomers in. Afterwards order() has the old place of every new one, moved() the new place
+  /// of every old one, or nowhere. Cost: n, and m log m for m newcomers.
   void settle();
   const std::vector<Place>& order() const { return order_; }
   const std::vector<Place>& moved() const { return moved_; }
@@ -50,17 +52,18 @@ class Roster {
   std::vector<Slot> free_;
   std::vector<std::uint8_t> removed_;
   std::size_t gone_ = 0;
+  std::size_t settled_ = 0;
   bool unsettled_ = false;
-  std::vector<Place> order_, moved_;
+  std::vector<Place> order_, moved_, arrivals_;
 };
 
-/// Puts values that stood at the old places `order` in this order.
+/// Puts values that stood at the old places `order` in this order. Buffers are kept by the thread.
 template <class T>
 void reorder(std::vector<T>& values, std::span<const Place> order) {
-  std::vector<T> sorted;
-  sorted.reserve(order.size());
+  thread_local std::vector<T> sorted;
+  sorted.clear();
   for (const Place p : order) sorted.push_back(values[p]);
-  values = std::move(sorted);
+  values.assign(sorted.begin(), sorted.end());
 }
 
 }  // namespace moraine::native
