@@ -1,37 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/impulse/bodies.hpp"
 
-#include <cmath>
+#include "physics/impulse/pair_kernels.hpp"
 
 namespace moraine::impulse {
-namespace {
-
-/// Turns the quaternion q by the rotation vector 2 `half`, world frame, and keeps its length. The series is exact to
-/// float32 up to turns of 0.2.
-void rotate(Vec& q, const Vec& half) {
-  const float a = half.squaredNorm();
-  float s = 1 - a / 6, c = 1 - a / 2 + a * a / 24;
-  if (a > 0.01F) {
-    const float angle = std::sqrt(a);
-    s = std::sin(angle) / angle;
-    c = std::cos(angle);
-  }
-  const Vec turned = c * q + s * (q.w() * half + half.cross3(q)) - Vec(0, 0, 0, s * half.dot(q));
-  q = (1.5F - 0.5F * turned.squaredNorm()) * turned;
-}
-
-}  // namespace
-
 Slot Bodies::add(const Body& body, const Shape& shape) {
   const Slot slot = roster.add(body.id);
   const auto radius = static_cast<float>(shape.sphere()->radius / units_.length);
   position.push_back({0, 0, 0, radius});
   moving.emplace_back();
-  weight.push_back({0, body.material});
+  material.push_back(body.material);
   attitude.emplace_back();
   ghost.push_back(body.role == Role::ghost);
   set_mass(place(slot), body.mass);
-  whole.push_back(weight.back().inverse_mass);
+  whole.push_back(moving.back().inverse_mass());
   set_state(place(slot), body.state);
   return slot;
 }
@@ -40,7 +22,7 @@ void Bodies::set_state(Place p, const ElementState& state) {
   position[p].head<3>() = units_.position(state.pose.position).head<3>();
   attitude[p] = state.pose.orientation.coeffs().cast<float>();
   moving[p].velocity = narrow(state.twist.linear / units_.velocity());
-  moving[p].turning = narrow(si_radius(p) / units_.velocity() * state.twist.angular);
+  moving[p].turning.head<3>() = narrow(si_radius(p) / units_.velocity() * state.twist.angular).head<3>();
 }
 
 Quat Bodies::orientation(Place p) const {
@@ -54,7 +36,7 @@ Twist Bodies::twist(Place p) const {
 
 /// Radius times angular velocity changes by 5/2 of the angular impulse per mass and radius: a solid sphere.
 void Bodies::push(Place p, const Impulse& impulse) {
-  const float inverse_mass = weight[p].inverse_mass;
+  const float inverse_mass = moving[p].inverse_mass();
   moving[p].velocity += inverse_mass * narrow(impulse.linear / units_.momentum());
   moving[p].turning += 2.5F * inverse_mass * narrow(impulse.angular / (units_.momentum() * si_radius(p)));
 }
@@ -63,17 +45,24 @@ void Bodies::settle() {
   roster.settle();
   native::reorder(position, roster.order());
   native::reorder(moving, roster.order());
-  native::reorder(weight, roster.order());
+  native::reorder(material, roster.order());
   native::reorder(attitude, roster.order());
   native::reorder(ghost, roster.order());
   native::reorder(whole, roster.order());
 }
 
+void Bodies::fall(const Vec& change, bool remember) {
+  if (remember) {
+    before.resize(size());
+    for (Place p = 0; p < size(); ++p) before[p] = moving[p].velocity;
+  }
+  for (Moving& m : moving) m.velocity += change;
+}
+
 void Bodies::advance(float h, bool turn) {
-  for (Place p = 0; p < size(); ++p) position[p] += h * moving[p].velocity;
-  if (!turn) return;
-  for (Place p = 0; p < size(); ++p)
-    if (!moving[p].turning.isZero(0)) rotate(attitude[p], 0.5F * h / radius(p) * moving[p].turning);
+  if (size() == 0) return;
+  pair_kernels().advance(
+      {position.data()->data(), moving.data()->velocity.data(), attitude.data()->data(), size(), h, turn});
 }
 
 }  // namespace moraine::impulse

@@ -12,16 +12,12 @@ namespace moraine::impulse {
 using native::nowhere;
 using native::Place;
 
-/// What contacts change.
+/// What contacts change, and how easily.
 struct alignas(32) Moving {
   Vec velocity = Vec::Zero();
-  Vec turning = Vec::Zero();  ///< radius times angular velocity
-};
+  Vec turning = Vec::Zero();  ///< radius times angular velocity; inverse mass in the last lane
 
-/// What contacts ask for besides.
-struct Weight {
-  float inverse_mass = 0;
-  std::uint32_t material = 0;
+  float inverse_mass() const { return turning.w(); }
 };
 
 class Bodies {
@@ -33,24 +29,27 @@ class Bodies {
   float radius(Place p) const { return position[p].w(); }
 
   Slot add(const Body& body, const Shape& shape);
-  void set_mass(Place p, double mass) { weight[p].inverse_mass = static_cast<float>(units_.mass / mass); }
+  void set_mass(Place p, double mass) { moving[p].turning.w() = static_cast<float>(units_.mass / mass); }
   void set_state(Place p, const ElementState& state);
   ElementState state(Place p) const { return {{units_.position(position[p]), orientation(p)}, twist(p)}; }
   Twist twist(Place p) const;
   /// Other worlds hold copies of it.
-  bool shared(Place p) const { return ghost[p] || weight[p].inverse_mass > whole[p]; }
+  bool shared(Place p) const { return ghost[p] || moving[p].inverse_mass() > whole[p]; }
   /// A change of velocities by an impulse in SI.
   void push(Place p, const Impulse& impulse);
 
   /// Puts all in id order; see roster.moved().
   void settle();
+  /// All fall for a step; `remember`: keeps the velocities that they had.
+  void fall(const Vec& change, bool remember);
   /// Moves and turns all by their velocities over h.
   void advance(float h, bool turn);
 
   native::Roster roster;
   std::vector<Vec> position;  ///< radius in the last lane
   std::vector<Moving> moving;
-  std::vector<Weight> weight;
+  std::vector<std::uint32_t> material;
+  std::vector<Vec> before;    ///< velocities at the start of the step, if anything rebounds
   std::vector<Vec> attitude;  ///< quaternions x, y, z, w
   std::vector<std::uint8_t> ghost;
   std::vector<float> whole;  ///< inverse mass when added

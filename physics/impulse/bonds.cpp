@@ -52,8 +52,8 @@ Bonds::Row Bonds::row(const Entry& e, const Bodies& bodies, float h) const {
   r.a = bodies.place(e.a);
   r.b = bodies.place(e.b);
   r.axis = length > 0 ? Vec(line / length) : Vec(Vec::UnitZ());
-  r.inverse_mass_a = bodies.weight[r.a].inverse_mass;
-  r.inverse_mass_b = bodies.weight[r.b].inverse_mass;
+  r.inverse_mass_a = bodies.moving[r.a].inverse_mass();
+  r.inverse_mass_b = bodies.moving[r.b].inverse_mass();
   const bool stiff = h * std::sqrt(stiffness * (r.inverse_mass_a + r.inverse_mass_b)) > explicit_limit;
   r.pull = h * stiffness * (length - rest);
   r.drag = h * ((stiff ? h * stiffness : 0) + damping);

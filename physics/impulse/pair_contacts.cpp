@@ -1,188 +1,217 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/impulse/pair_contacts.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace moraine::impulse {
 namespace {
 
-static_assert(sizeof(PairRow) == 80);
+static_assert(sizeof(PairRow) == 48);
 
-std::uint64_t key(const PairRow& r) { return std::uint64_t{r.a} << 32 | r.b; }
+std::uint64_t key(Place a, Place b) { return std::uint64_t{a} << 32 | b; }
 
-void copy(const PairRow& from, std::uint32_t row, PairBatch& to, std::uint32_t lane) {
-  to.a[lane] = from.a;
-  to.b[lane] = from.b;
-  to.row[lane] = row;
-  to.inverse_mass_a[lane] = from.inverse_mass_a;
-  to.inverse_mass_b[lane] = from.inverse_mass_b;
+PairRow row_of(const PairBatch& from, std::size_t lane) {
+  PairRow row;
+  row.a = from.a[lane];
+  row.b = from.b[lane];
+  row.push = from.push[lane];
+  row.rebound = from.rebound[lane];
   for (int axis = 0; axis < 3; ++axis) {
-    to.normal[axis][lane] = from.normal[axis];
-    to.side[axis][lane] = from.side[axis];
+    row.normal[axis] = from.normal[axis][lane];
+    row.side[axis] = from.side[axis][lane];
   }
-  to.push[lane] = from.push;
-  to.approach[lane] = from.approach;
-  to.mass[lane] = from.mass;
-  to.friction[lane] = from.friction;
-  to.firmness[lane] = from.firmness;
-  to.yielding[lane] = from.yielding;
-  to.rebound[lane] = from.rebound;
-  to.gap[lane] = from.gap;
+  return row;
 }
 
-/// Rows of this colour may share bodies, and are solved one by one.
-constexpr std::uint8_t crowded = 63;
+void put(const PairRow& row, std::uint32_t pair, PairBatch& to, std::size_t lane) {
+  to.a[lane] = row.a;
+  to.b[lane] = row.b;
+  to.pair[lane] = pair;
+  to.push[lane] = row.push;
+  to.rebound[lane] = row.rebound;
+  for (int axis = 0; axis < 3; ++axis) {
+    to.normal[axis][lane] = row.normal[axis];
+    to.side[axis][lane] = row.side[axis];
+  }
+}
+
+bool spare(const PairBatch& batch, std::size_t lane) { return lane > 0 && batch.pair[lane] == batch.pair[0]; }
 
 }  // namespace
 
+void PairContacts::list(const Bodies& bodies, float skin) {
+  if (listed_) put_away();
+  pairs_.build(bodies.position, bodies.ghost, skin);
+  take_out();
+  listed_ = true;
+}
+
+/// What pairs carry, without the list.
+void PairContacts::put_away() {
+  away_.clear();
+  for (const std::uint32_t k : meeting_.all())
+    if (carried_[k] != std::array<float, 4>{}) away_.push_back({pairs_.lower()[k], pairs_.higher()[k], carried_[k]});
+}
+
+/// Back into a new list, which holds at least the pairs that are in contact.
+void PairContacts::take_out() {
+  carried_.assign(pairs_.size(), {});
+  meeting_.count = 0;
+  std::uint32_t k = 0;
+  for (const Carried& c : away_) {
+    while (k < pairs_.size() && key(pairs_.lower()[k], pairs_.higher()[k]) < key(c.a, c.b)) ++k;
+    if (k == pairs_.size()) break;
+    if (key(pairs_.lower()[k], pairs_.higher()[k]) != key(c.a, c.b)) continue;
+    carried_[k] = c.impulse;
+    meeting_.add(k);
+  }
+  away_.clear();
+}
+
 void PairContacts::follow(std::span<const Place> moved) {
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < count_; ++k) {
-    PairRow row = rows_[k];
-    row.a = moved[row.a];
-    row.b = moved[row.b];
-    if (row.a != nowhere && row.b != nowhere) rows_[kept++] = row;
+  const auto renew = [&](Place& p) { p = p == nowhere ? nowhere : moved[p]; };
+  for (Carried& c : away_) renew(c.a), renew(c.b);
+  std::erase_if(away_, [](const Carried& c) { return c.a == nowhere || c.b == nowhere; });
+  for (std::size_t k = 0; k < batch_count_; ++k)
+    for (std::size_t lane = 0; lane < batch_lanes; ++lane) renew(batches_[k].a[lane]), renew(batches_[k].b[lane]);
+  if (listed_) follow_list(moved);
+}
+
+/// What was in contact stays in contact, at a new place in the list.
+void PairContacts::follow_list(std::span<const Place> moved) {
+  const std::size_t count = std::exchange(meeting_.count, 0);
+  std::size_t next = 0;
+  pairs_.follow(moved, [&](std::size_t old, std::size_t now) {
+    carried_[now] = carried_[old];
+    while (next < count && meeting_.at[next] < old) ++next;
+    if (next < count && meeting_.at[next] == old)
+      meeting_.at[meeting_.count++] = static_cast<std::uint32_t>(now), ++next;
+  });
+  carried_.resize(pairs_.size());
+}
+
+void PairContacts::insert(const Bodies& bodies, std::span<const Place> ghosts) {
+  std::size_t next = meeting_.count;
+  pairs_.insert(bodies.position, bodies.ghost, ghosts, [&](std::size_t old, std::size_t now) {
+    carried_.resize(std::max(carried_.size(), now + 1));
+    carried_[now] = carried_[old];
+    carried_[old] = {};
+    while (next > 0 && meeting_.at[next - 1] > old) --next;
+    if (next > 0 && meeting_.at[next - 1] == old) meeting_.at[--next] = static_cast<std::uint32_t>(now);
+  });
+  carried_.resize(pairs_.size());
+}
+
+void PairContacts::drop_list() {
+  if (listed_) put_away();
+  listed_ = false;
+}
+
+std::vector<PairRow> PairContacts::rows() const {
+  std::vector<PairRow> out;
+  for (std::size_t k = 0; k < batch_count_; ++k)
+    for (std::size_t lane = 0; lane < batch_lanes; ++lane)
+      if (!spare(batches_[k], lane)) out.push_back(row_of(batches_[k], lane));
+  std::erase_if(out, [](const PairRow& r) { return r.a == nowhere || r.b == nowhere; });
+  std::sort(out.begin(), out.end(), [](auto& p, auto& q) { return key(p.a, p.b) < key(q.a, q.b); });
+  return out;
+}
+
+void PairContacts::restore(std::span<const PairRow> rows) {
+  away_.clear();
+  batch_count_ = (rows.size() + batch_lanes - 1) / batch_lanes;
+  batches_.resize(batch_count_);
+  for (std::uint32_t k = 0; k < batch_count_ * batch_lanes; ++k) {
+    const std::uint32_t from = k < rows.size() ? k : k / batch_lanes * batch_lanes;
+    put(rows[from], from, batches_[k / batch_lanes], k % batch_lanes);
   }
-  count_ = kept;
+  for (const PairRow& r : rows)
+    if (r.rebound <= 0 && (r.push > 0 || !r.side.isZero(0)))
+      away_.push_back({r.a, r.b, {r.side[0], r.side[1], r.side[2], r.push}});
+  listed_ = false;
+  meeting_.count = rows.size();
 }
 
-void PairContacts::restore(std::vector<PairRow> rows) {
-  rows_ = std::move(rows);
-  count_ = rows_.size();
+BodyArrays PairContacts::arrays(Bodies& bodies) {
+  return {bodies.moving.data()->velocity.data(),
+          bodies.position.data()->data(),
+          bodies.material.data(),
+          bodies.ghost.data(),
+          bodies.whole.data(),
+          bodies.before.data()->data()};
 }
 
-void PairContacts::gather(const Bodies& bodies) {
-  std::swap(rows_, before_);
-  count_before_ = std::exchange(count_, 0);
-  find_close(bodies);
-  place_close(bodies);
-  if (rows_.size() <= meeting_.size()) rows_.resize(meeting_.size() + 1);
-  for (const std::uint32_t k : meeting_) count_ += fill(bodies, k, rows_[count_]);
-  take_up_impulses();
-  choose_colours(bodies.size());
-  fill_batches();
-}
+PairTable PairContacts::table() { return {pairs_.lower(), pairs_.higher(), pairs_.size(), carried_.data()->data()}; }
 
-/// Without branches: which pairs are close cannot be guessed.
-void PairContacts::find_close(const Bodies& bodies) {
-  const Place *low = pairs_.lower().data(), *high = pairs_.higher().data();
-  const Vec* position = bodies.position.data();
-  close_.resize(pairs_.size() + 1);
-  std::size_t found = 0;
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    const Vec &a = position[low[k]], &b = position[high[k]];
-    const float limit = a.w() + b.w() + rule_.reach();
-    close_[found] = static_cast<std::uint32_t>(k);
-    found += three(a - b).squaredNorm() < limit * limit;
-  }
-  close_.resize(found);
-}
-
-/// Works out how close pairs lie, and which may meet.
-void PairContacts::place_close(const Bodies& bodies) {
-  const std::size_t count = close_.size();
-  close_.resize((count + batch_lanes - 1) / batch_lanes * batch_lanes, count > 0 ? close_.back() : 0);
-  placing_.resize(close_.size() / batch_lanes);
-  if (count > 0)
-    kernels_.place({pairs_.lower().data(), pairs_.higher().data(), close_.data(), close_.size(),
-                    bodies.moving.data()->velocity.data(), bodies.position.data()->data(), placing_.data()});
-  meeting_.resize(count + 1);
-  std::size_t found = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const PairPlacing& p = placing_[k / batch_lanes];
-    meeting_[found] = static_cast<std::uint32_t>(k);
-    found += p.gap[k % batch_lanes] < rule_.range(p.closing[k % batch_lanes]);
-  }
-  meeting_.resize(found);
-}
-
-/// Writes the row of a close pair; false if it is not needed.
-bool PairContacts::fill(const Bodies& bodies, std::size_t close, PairRow& row) const {
-  const PairPlacing& p = placing_[close / batch_lanes];
-  const std::size_t lane = close % batch_lanes;
-  row.a = pairs_.lower()[close_[close]];
-  row.b = pairs_.higher()[close_[close]];
-  row.normal = {p.normal[0][lane], p.normal[1][lane], p.normal[2][lane], 0};
-  const Weight &a = bodies.weight[row.a], &b = bodies.weight[row.b];
-  const PairConstants& law = rule_.of(a.material, b.material);
-  row.inverse_mass_a = a.inverse_mass;
-  row.inverse_mass_b = b.inverse_mass;
-  row.mass = 1 / (a.inverse_mass + b.inverse_mass);
-  row.push = 0;
-  row.side.setZero();
-  const bool shared = bodies.shared(row.a) || bodies.shared(row.b);
-  return rule_.prepare(row, p.gap[lane], p.closing[lane], law, shared);
-}
-
-/// From the rows of the step before, turned with the contact. What made an impact does not go on.
-void PairContacts::take_up_impulses() {
-  std::size_t passed = 0;
-  for (std::size_t k = 0; k < count_; ++k) {
-    PairRow& row = rows_[k];
-    while (passed < count_before_ && key(before_[passed]) < key(row)) ++passed;
-    if (passed == count_before_) return;
-    const PairRow& old = before_[passed];
-    if (key(old) != key(row) || old.rebound > 0) continue;
-    row.push = old.push;
-    row.side = old.side - old.side.dot(row.normal) * row.normal;
+void PairContacts::find(Bodies& bodies) {
+  std::swap(meeting_, met_);
+  meeting_.count = 0;
+  if (pairs_.size() > 0) {
+    close_.resize(pairs_.size() + batch_lanes);
+    if (meeting_.at.size() < close_.size()) meeting_.at.resize(close_.size());
+    meeting_.count = kernels_.find(
+        {arrays(bodies), table(), rule_.numbers(), laws(), features(), close_.data(), meeting_.at.data()});
   }
 }
 
-/// Rows of a colour share no body. A row gets the first colour that no earlier row of its bodies has, so its colour
-/// depends on nothing but what it is connected with.
-void PairContacts::choose_colours(std::size_t bodies) {
-  taken_.assign(bodies, 0);
-  colour_.resize(count_);
-  colour_rows_.assign(crowded + 1, 0);
-  for (std::size_t k = 0; k < count_; ++k) {
-    std::uint64_t &a = taken_[rows_[k].a], &b = taken_[rows_[k].b];
-    const auto colour = static_cast<std::uint8_t>(std::min<int>(std::countr_one(a | b), crowded));
-    a |= std::uint64_t{1} << colour;
-    b |= std::uint64_t{1} << colour;
-    colour_[k] = colour;
-    ++colour_rows_[colour];
+/// Group by group: contacts whose lower bodies have ids of one range, so that bodies and contacts of a group stay in
+/// the processor's cache.
+void PairContacts::start(Bodies& bodies) {
+  taken_.assign(bodies.size(), {});
+  batch_count_ = 0;
+  const std::span<const std::uint32_t> all = meeting_.all();
+  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+    const ElementId group = group_of(bodies, all[begin]);
+    while (end < all.size() && group_of(bodies, all[end]) == group) ++end;
+    choose_colours(all.subspan(begin, end - begin), static_cast<std::uint32_t>(begin) + 1);
+    start_group(bodies);
   }
 }
 
-/// Every colour begins a batch; each crowded row has one of its own.
-void PairContacts::fill_batches() {
-  colour_cursor_.assign(crowded + 1, 0);
-  std::size_t count = 0;
-  for (std::size_t c = 0; c <= crowded; ++c) {
-    colour_cursor_[c] = static_cast<std::uint32_t>(batch_lanes * count);
-    count += c == crowded ? colour_rows_[c] : (colour_rows_[c] + batch_lanes - 1) / batch_lanes;
+ElementId PairContacts::group_of(const Bodies& bodies, std::uint32_t pair) const {
+  return bodies.roster.id(pairs_.lower()[pair]) / group_ids;
+}
+
+/// Contacts of a colour share no body. A contact gets the first colour that no earlier contact of its bodies in the
+/// group has, so the order of a body's contacts depends on nothing but what it is connected with.
+void PairContacts::choose_colours(std::span<const std::uint32_t> pairs, std::uint32_t group) {
+  for (Places& c : coloured_) c.count = 0;
+  const auto taken = [&](Place body) -> std::uint32_t& {
+    if (taken_[body].group != group) taken_[body] = {group, 0};
+    return taken_[body].colours;
+  };
+  for (const std::uint32_t k : pairs) {
+    std::uint32_t &a = taken(pairs_.lower()[k]), &b = taken(pairs_.higher()[k]);
+    const auto colour = static_cast<std::size_t>(std::min<int>(std::countr_one(a | b), crowded));
+    a |= std::uint32_t{1} << colour;
+    b |= std::uint32_t{1} << colour;
+    coloured_[colour].add(k);
   }
-  batches_.resize(count);
-  for (PairBatch& b : batches_) b.used = 0;
-  for (std::uint32_t k = 0; k < count_; ++k) {
-    std::uint32_t& lane = colour_cursor_[colour_[k]];
-    PairBatch& batch = batches_[lane / batch_lanes];
-    copy(rows_[k], k, batch, batch.used++);
-    lane += colour_[k] == crowded ? batch_lanes : 1;
-  }
-  for (PairBatch& b : batches_)
-    for (std::uint32_t lane = b.used; lane < batch_lanes; ++lane) copy(rows_[b.row[0]], b.row[0], b, lane);
+}
+
+/// Every colour begins a batch; each crowded contact has one of its own.
+void PairContacts::start_group(Bodies& bodies) {
+  std::size_t most = batch_count_ + coloured_[crowded].count;
+  for (std::size_t c = 0; c < crowded; ++c) most += (coloured_[c].count + batch_lanes - 1) / batch_lanes;
+  if (batches_.size() < most) batches_.resize(most + most / 8);
+  const auto fill = [&](std::span<const std::uint32_t> pairs) {
+    kernels_.start({arrays(bodies), table(), rule_.numbers(), laws(), features(), pairs.data(), pairs.size(),
+                    batches_.data() + batch_count_});
+    batch_count_ += (pairs.size() + batch_lanes - 1) / batch_lanes;
+  };
+  for (std::size_t c = 0; c < crowded && coloured_[c].count > 0; ++c) fill(coloured_[c].all());
+  for (const std::uint32_t& k : coloured_[crowded].all()) fill({&k, 1});
 }
 
 PairTask PairContacts::task(Bodies& bodies) {
-  if (bodies.size() == 0) return {};
-  return {batches_.data(), batches_.size(), bodies.moving.data()->velocity.data(), bodies.position.data()->data(),
-          rule_.friction};
+  return {arrays(bodies), batches_.data(),        batch_count_, rule_.numbers().impulse_scale,
+          features(),     carried_.data()->data()};
 }
 
 void PairContacts::relax(Bodies& bodies) {
+  for (const std::uint32_t k : met_.all()) carried_[k] = {};
   kernels_.relax(task(bodies));
-  keep_impulses();
-}
-
-void PairContacts::keep_impulses() {
-  for (const PairBatch& b : batches_)
-    for (std::uint32_t lane = 0; lane < b.used; ++lane) {
-      PairRow& row = rows_[b.row[lane]];
-      row.push = b.push[lane];
-      row.side = {b.side[0][lane], b.side[1][lane], b.side[2][lane], 0};
-      row.normal = {b.normal[0][lane], b.normal[1][lane], b.normal[2][lane], 0};
-    }
 }
 
 }  // namespace moraine::impulse

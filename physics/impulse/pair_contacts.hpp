@@ -2,63 +2,98 @@
 // Contacts between two balls.
 #pragma once
 
+#include <array>
+
 #include "physics/impulse/bodies.hpp"
+#include "physics/impulse/near_list.hpp"
 #include "physics/impulse/pair_kernels.hpp"
 #include "physics/impulse/step_rule.hpp"
-#include "physics/native/verlet_list.hpp"
 
 namespace moraine::impulse {
 
-struct PairRow : ContactRow {
-  Place a = 0, b = 0;  ///< a < b
-  float inverse_mass_a = 0, inverse_mass_b = 0;
+/// A contact of the last step, as others see it.
+struct PairRow {
+  Vec normal = Vec::Zero();  ///< unit, towards a
+  Vec side = Vec::Zero();    ///< tangential impulse on a
+  Place a = 0, b = 0;        ///< a < b
+  float push = 0;            ///< normal impulse on a
+  float rebound = 0;         ///< speed after an impact, else 0
 };
 
-/// Rows are gathered from the list anew in every step, in its order, and take up what their pair's row of the step
-/// before holds. So results do not depend on when the list was made.
+/// Contacts are chosen from the list anew in every step, in its order, and take up what their pair carried in the step
+/// before. So results do not depend on when the list was made.
 class PairContacts {
  public:
   explicit PairContacts(const StepRule& rule) : rule_(rule) {}
 
-  void list(const native::SizedGrid& grid, std::span<const native::Ball> balls, std::span<const std::uint8_t> passive,
-            double skin) {
-    pairs_.build(grid, balls, passive, skin);
-  }
+  /// Lists all pairs that may meet while nothing moves farther than half of what the skin exceeds the reach by.
+  void list(const Bodies& bodies, float skin);
   /// Bodies have new places.
   void follow(std::span<const Place> moved);
+  /// Adds pairs of ghosts that have come since the list was made.
+  void insert(const Bodies& bodies, std::span<const Place> ghosts);
+  /// The next step lists anew.
+  void drop_list();
 
-  /// Rows of all pairs that may meet in this step, from the velocities at its start. Cost: linear in listed pairs.
-  void gather(const Bodies& bodies);
-  void warm_start(Bodies& bodies) { kernels_.warm_start(task(bodies)); }
+  /// Chooses all pairs that may meet in this step, from the velocities at its start. Cost: linear in listed pairs.
+  void find(Bodies& bodies);
+  /// Makes contacts of them and gives bodies the impulses of the step before.
+  void start(Bodies& bodies);
   void sweep(Bodies& bodies) { kernels_.sweep(task(bodies)); }
-  /// The last sweep, after bodies have moved by their velocities over the step. Completes rows().
+  /// The last sweep, after bodies have moved by their velocities over the step.
   void relax(Bodies& bodies);
 
-  std::span<const PairRow> rows() const { return {rows_.data(), count_}; }
-  void restore(std::vector<PairRow> rows);
+  std::size_t count() const { return meeting_.count; }
+  /// Of the last step, ascending (a, b).
+  std::vector<PairRow> rows() const;
+  void restore(std::span<const PairRow> rows);
 
  private:
+  /// A list that keeps its memory.
+  struct Places {
+    std::vector<std::uint32_t> at;
+    std::size_t count = 0;
+    void add(std::uint32_t place) {
+      if (count == at.size()) at.resize(2 * count + 64);
+      at[count++] = place;
+    }
+    std::span<const std::uint32_t> all() const { return {at.data(), count}; }
+  };
+  struct Carried {
+    Place a = 0, b = 0;
+    std::array<float, 4> impulse{};
+  };
+  /// Colours of a body's contacts in a group, as bits.
+  struct Taken {
+    std::uint32_t group = 0, colours = 0;
+  };
+  static constexpr ElementId group_ids = 256;
+  /// Contacts of the last colour may share bodies, and are solved one by one.
+  static constexpr std::size_t colours = 32, crowded = colours - 1;
+
+  static BodyArrays arrays(Bodies& bodies);
+  PairTable table();
+  PairFeatures features() const { return {rule_.friction, rule_.restitution}; }
+  PairLaws laws() const { return {rule_.constants().data(), rule_.materials()}; }
   PairTask task(Bodies& bodies);
-  void find_close(const Bodies& bodies);
-  void place_close(const Bodies& bodies);
-  bool fill(const Bodies& bodies, std::size_t close, PairRow& row) const;
-  void take_up_impulses();
-  void choose_colours(std::size_t bodies);
-  void fill_batches();
-  void keep_impulses();
+  ElementId group_of(const Bodies& bodies, std::uint32_t pair) const;
+  void choose_colours(std::span<const std::uint32_t> pairs, std::uint32_t group);
+  void start_group(Bodies& bodies);
+  void follow_list(std::span<const Place> moved);
+  void put_away();
+  void take_out();
 
   const StepRule& rule_;
-  native::VerletList pairs_;
-  std::vector<PairRow> rows_, before_;  ///< ascending (a, b); the first count_ and count_before_ are in use
-  std::size_t count_ = 0, count_before_ = 0;
-  std::vector<std::uint32_t> close_;          ///< pairs within reach
-  std::vector<PairPlacing> placing_;          ///< of those
-  std::vector<std::uint32_t> meeting_;        ///< those of them that may meet, as places in close_
-  std::vector<std::uint64_t> taken_;          ///< by body: colours of its rows, as bits
-  std::vector<std::uint8_t> colour_;          ///< by row
-  std::vector<std::uint32_t> colour_rows_;    ///< rows of each colour
-  std::vector<std::uint32_t> colour_cursor_;  ///< lane that the next row of each colour takes
-  std::vector<PairBatch> batches_;            ///< in the order in which they are solved
+  NearList pairs_;
+  bool listed_ = false;
+  std::vector<std::array<float, 4>> carried_;  ///< by place in the list: tangential and normal impulse, or zeros
+  std::vector<Carried> away_;                  ///< while there is no list: those that are not zero, ascending (a, b)
+  std::vector<std::uint32_t> close_;           ///< pairs within reach
+  Places meeting_, met_;                       ///< pairs in contact in this step and the one before, ascending
+  std::vector<Taken> taken_;                   ///< by body
+  std::array<Places, colours> coloured_;       ///< pairs of each colour
+  std::vector<PairBatch> batches_;             ///< in the order in which they are solved; the first count are in use
+  std::size_t batch_count_ = 0;
   const PairKernels& kernels_ = pair_kernels();
 };
 

@@ -1,58 +1,132 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contacts solved eight at a time. Nothing but plain arrays here: what includes it is compiled for several processors.
+// Contacts found and solved eight at a time. Nothing but plain arrays here: what includes it is compiled for several
+// processors.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
+#include "physics/impulse/step_numbers.hpp"
+
 namespace moraine::impulse {
 
 inline constexpr std::size_t batch_lanes = 8;
 
-/// Up to eight pair contacts that share no body. Fields as in PairRow. Spare lanes repeat the first one and are never
-/// written back.
+/// Up to eight pair contacts that share no body. Spare lanes repeat the first one: they compute and write the same.
+/// Impulses act on a, the opposite ones on b.
 struct alignas(32) PairBatch {
   using Lanes = float[batch_lanes];
 
   std::uint32_t a[batch_lanes], b[batch_lanes];
-  std::uint32_t row[batch_lanes];  ///< that the lane came from
-  std::uint32_t used;              ///< lanes
-  Lanes inverse_mass_a, inverse_mass_b;
-  Lanes normal[3], side[3];
-  Lanes push, approach, mass, friction, firmness, yielding, rebound, gap;
+  std::uint32_t pair[batch_lanes];  ///< place in the list of pairs
+  Lanes normal[3];                  ///< unit, towards a
+  Lanes side[3];                    ///< tangential impulse of the step so far
+  Lanes push;                       ///< normal impulse of the step so far, 0 or more
+  Lanes approach;                   ///< as in ContactRow; above 0 if and only if there is a gap
+  Lanes mass;                       ///< reduced
+  Lanes friction;
+  Lanes firmness;  ///< the mass if the contact is hard, else less
+  Lanes rebound;   ///< speed after an impact
 };
 
-/// The contacts of a step and the bodies between which they act, for one call of a kernel.
+/// The bodies of a world, by place.
+struct BodyArrays {
+  float* moving = nullptr;          ///< from 8 i: velocity, 0, radius times angular velocity, inverse mass
+  const float* position = nullptr;  ///< from 4 i: x, y, z, radius
+  const std::uint32_t* material = nullptr;
+  const std::uint8_t* ghost = nullptr;
+  const float* whole = nullptr;   ///< inverse mass of an element that is not shared
+  const float* before = nullptr;  ///< from 4 i: velocity at the start of the step; read if anything rebounds
+};
+
+/// Pairs that may meet, and what their contacts carry on from the step before.
+struct PairTable {
+  const std::uint32_t *lower = nullptr, *higher = nullptr;
+  std::size_t count = 0;
+  float* carried = nullptr;  ///< from 4 k: tangential impulse, normal impulse
+};
+
+/// What is left out if a scene does not use it.
+struct PairFeatures {
+  bool friction = false, restitution = false;
+};
+
+struct PairLaws {
+  const PairConstants* of = nullptr;  ///< materials x materials
+  std::size_t materials = 0;
+};
+
+struct PairFindTask {
+  BodyArrays bodies;
+  PairTable table;
+  StepNumbers numbers;
+  PairLaws laws;
+  PairFeatures features;
+  std::uint32_t* close = nullptr;  ///< room for all pairs and a batch
+  std::uint32_t* out = nullptr;    ///< room for all pairs and a batch
+};
+
+struct PairStartTask {
+  BodyArrays bodies;
+  PairTable table;
+  StepNumbers numbers;
+  PairLaws laws;
+  PairFeatures features;
+  const std::uint32_t* pairs = nullptr;  ///< places in the table; no two share a body
+  std::size_t count = 0;
+  PairBatch* batches = nullptr;  ///< room for all of them
+};
+
 struct PairTask {
+  BodyArrays bodies;
   PairBatch* batches = nullptr;
   std::size_t count = 0;
-  float* moving = nullptr;          ///< of body i from 8 i: velocity, 0, radius times angular velocity, 0
-  const float* position = nullptr;  ///< of body i from 4 i: x, y, z, radius
-  bool friction = false;
+  float impulse_scale = 0;  ///< StepNumbers
+  PairFeatures features;
+  float* carried = nullptr;  ///< PairTable
 };
 
-/// How eight pairs lie and move; a pair is a place in the list.
-struct alignas(32) PairPlacing {
-  PairBatch::Lanes normal[3];  ///< unit, towards the lower one
-  PairBatch::Lanes gap, closing;
+/// Bodies in the order of the cells in which they lie.
+struct CellTable {
+  float low[3], inverse[3];  ///< corner of the first cell; cells per length
+  int size[3];
+  const std::uint32_t* start;       ///< of every cell, x first
+  const float *x, *y, *z, *radius;  ///< with spare lanes at the end
+  const std::uint32_t* body;
+  float largest;  ///< radius
 };
 
-struct PairPlacingTask {
-  const std::uint32_t *lower = nullptr, *higher = nullptr;  ///< the list
-  const std::uint32_t* pairs = nullptr;                     ///< a multiple of eight, indices into the list
+struct NearTask {
+  float skin = 0;
+  const CellTable* classes = nullptr;
+  std::size_t class_count = 0;
+};
+
+struct AdvanceTask {
+  float* position = nullptr;      ///< BodyArrays
+  const float* moving = nullptr;  ///< BodyArrays
+  float* attitude = nullptr;      ///< quaternions x, y, z, w
   std::size_t count = 0;
-  const float *moving = nullptr, *position = nullptr;  ///< as in PairTask
-  PairPlacing* out = nullptr;
+  float h = 0;
+  bool turn = false;
 };
 
 /// One set of kernels. All sets do the same operations in the same order, so they give the same bits.
 struct PairKernels {
-  void (*place)(const PairPlacingTask&);
-  void (*warm_start)(const PairTask&);
+  /// Writes the bodies with numbers above this one whose surfaces are less than the skin away from a ball (x, y, z,
+  /// radius), in any order; returns how many. Room for all bodies and a batch is needed.
+  std::size_t (*near)(const NearTask&, const float* ball, std::int32_t above, std::uint32_t* out);
+  /// Writes the places of the pairs that may meet in this step, ascending; returns how many. Before gravity acts.
+  std::size_t (*find)(const PairFindTask&);
+  /// Fills batches and gives bodies the impulses of the step before, turned with the contact.
+  void (*start)(const PairStartTask&);
   void (*sweep)(const PairTask&);
   /// The sweep after bodies have moved: what remains is to part with the right speed. Contacts that met within the step
-  /// do so along the line on which they touch: that keeps angular momentum.
+  /// do so along the line on which they touch: that keeps angular momentum. Writes what the contacts carry on: nothing
+  /// after an impact.
   void (*relax)(const PairTask&);
+  /// Moves bodies by their velocities over h, and turns them. Turns of more than a revolution come out smaller.
+  void (*advance)(const AdvanceTask&);
 };
 
 /// For any processor.

@@ -7,7 +7,7 @@ namespace moraine::impulse {
 namespace {
 
 constexpr std::uint32_t magic = 0x5049424dU;  // "MBIP"
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 
 /// Records of numbers without gaps between them, which Eigen does not let the compiler call trivial.
 template <class T>
@@ -44,7 +44,7 @@ void ImpulseWorld::save(std::vector<std::byte>& out) const {
   put_all(w, bodies_.roster.free_slots());
   put_all(w, bodies_.position);
   put_all(w, bodies_.moving);
-  put_all(w, bodies_.weight);
+  put_all(w, bodies_.material);
   put_all(w, bodies_.attitude);
   put_all(w, bodies_.ghost);
   put_all(w, bodies_.whole);
@@ -62,7 +62,7 @@ void ImpulseWorld::load(std::span<const std::byte> in) {
   bodies_.roster.restore(std::move(members), slots, get_all<Slot>(r));
   get_all(r, bodies_.position);
   get_all(r, bodies_.moving);
-  get_all(r, bodies_.weight);
+  get_all(r, bodies_.material);
   get_all(r, bodies_.attitude);
   get_all(r, bodies_.ghost);
   get_all(r, bodies_.whole);
@@ -70,7 +70,7 @@ void ImpulseWorld::load(std::span<const std::byte> in) {
   walls_.restore(get_all<WallRow>(r));
   bonds_.clear();
   for (const Bonds::Entry& e : get_all<Bonds::Entry>(r)) bonds_.add(e);
-  for (const Moving& m : bodies_.moving) turns_ |= !m.turning.isZero(0);
+  for (const Moving& m : bodies_.moving) turns_ |= !three(m.turning).isZero(0);
   listed_ = false;
 }
 

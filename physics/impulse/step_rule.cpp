@@ -25,16 +25,19 @@ StepRule::StepRule(const WorldSettings& settings, const Units& units)
       fall(narrow(settings.substep / units.velocity() * settings.gravity)),
       sweeps(settings.iterations),
       friction(settings.features.friction),
-      materials_(settings.scene->materials.materials.size()),
-      slack_(gap_slack + h * fall.norm()),
-      reach_(slack_ + std::min(fast_impact * h, largest_way)),
-      threshold_(settings.gravity.isZero() ? 0 : bounce_threshold),
-      mass_scale_(static_cast<float>(1 - impulse_scale(settings.overlap_recovery))),
-      impulse_scale_(1 - mass_scale_),
-      closing_(1 / h),
-      opening_(static_cast<float>(settings.overlap_recovery) / h) {
+      restitution(settings.features.restitution),
+      materials_(settings.scene->materials.materials.size()) {
   for (const PairLaw& law : settings.scene->materials.pairs)
     constants_.push_back({static_cast<float>(law.friction), static_cast<float>(law.restitution)});
+  StepNumbers& n = numbers_;
+  n.h = h;
+  n.slack = gap_slack + h * fall.norm();
+  n.reach = n.slack + std::min(fast_impact * h, largest_way);
+  n.threshold = settings.gravity.isZero() ? 0 : bounce_threshold;
+  n.impulse_scale = static_cast<float>(impulse_scale(settings.overlap_recovery));
+  n.mass_scale = 1 - n.impulse_scale;
+  n.closing = 1 / h;
+  n.opening = static_cast<float>(settings.overlap_recovery) / h;
 }
 
 }  // namespace moraine::impulse

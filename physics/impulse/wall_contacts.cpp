@@ -26,6 +26,8 @@ void apply(const WallRow& row, Moving& ball, const Vec& impulse, const Vec& side
 void WallContacts::follow(std::span<const Place> moved) {
   for (WallRow& row : rows_) row.ball = moved[row.ball];
   std::erase_if(rows_, [](const WallRow& row) { return row.ball == nowhere; });
+  for (native::WallCandidate& c : candidates_) c.ball = moved[c.ball];
+  std::erase_if(candidates_, [](const native::WallCandidate& c) { return c.ball == nowhere; });
 }
 
 void WallContacts::gather(const Bodies& bodies) {
@@ -59,10 +61,9 @@ void WallContacts::add(const Bodies& bodies, WallRow row, const native::Nearest&
   row.normal = narrow(touch.normal);
   row.velocity = narrow(wall.velocity(touch.point) / units_.velocity());
   const float closing = row.normal.dot(row.velocity - bodies.moving[row.ball].velocity);
-  const Weight& weight = bodies.weight[row.ball];
-  const PairConstants& law = rule_.of(weight.material, wall.material());
-  row.inverse_mass = weight.inverse_mass;
-  row.mass = 1 / weight.inverse_mass;
+  const PairConstants& law = rule_.of(bodies.material[row.ball], wall.material());
+  row.inverse_mass = bodies.moving[row.ball].inverse_mass();
+  row.mass = 1 / row.inverse_mass;
   if (!rule_.prepare(row, gap, closing, law, bodies.shared(row.ball))) return;
   take_up(row);
   rows_.push_back(row);

@@ -13,7 +13,8 @@ namespace {
 
 // Lists last longer with a larger skin, but hold more pairs. [diameters]
 constexpr float least_skin = 0.25F, largest_skin = 0.6F;
-constexpr float steps_per_list = 6;  ///< that the fastest body should be free to go
+constexpr std::size_t many_newcomers = 8;  ///< lists are made anew if more than a share of 1 / 8 is new
+constexpr float steps_per_list = 6;        ///< that the fastest body should be free to go
 
 }  // namespace
 
@@ -62,7 +63,7 @@ void ImpulseWorld::step(double t) {
   walls_.walls().move(t);
   if (!listed_ || moved_too_far()) list_anew();
   gather();
-  for (Moving& m : bodies_.moving) m.velocity += rule_.fall;
+  bodies_.fall(rule_.fall, rule_.restitution);
   warm_start();
   for (int k = 0; k < rule_.sweeps; ++k) sweep();
   bodies_.advance(rule_.h, turns_);
@@ -74,21 +75,45 @@ void ImpulseWorld::step(double t) {
 /// Contacts follow their bodies to new places; those of bodies that left end.
 void ImpulseWorld::settle() {
   if (!bodies_.roster.unsettled()) return;
+  const std::size_t before = bodies_.roster.settled();
   bodies_.settle();
   pairs_.follow(bodies_.roster.moved());
   walls_.follow(bodies_.roster.moved());
+  if (listed_) admit(before);
+}
+
+/// A few ghosts more are added to the lists; for anything else lists are made anew. `before`: old places of newcomers
+/// begin there.
+void ImpulseWorld::admit(std::size_t before) {
+  newcomers_.clear();
+  bool ghosts = true;
+  const std::vector<Place>& order = bodies_.roster.order();
+  for (Place p = 0; p < order.size(); ++p) {
+    if (order[p] < before) continue;
+    newcomers_.push_back(p);
+    ghosts &= bodies_.ghost[p] != 0;
+  }
+  if (!ghosts || many_newcomers * newcomers_.size() > bodies_.size()) return drop_lists();
+  listed_at_.resize(bodies_.roster.moved().size());
+  native::reorder(listed_at_, order);
+  for (const Place p : newcomers_) listed_at_[p] = bodies_.position[p];
+  pairs_.insert(bodies_, newcomers_);
+}
+
+void ImpulseWorld::drop_lists() {
   listed_ = false;
+  pairs_.drop_list();
 }
 
 void ImpulseWorld::gather() {
-  pairs_.gather(bodies_);
+  pairs_.find(bodies_);
   walls_.gather(bodies_);
   bonds_.gather(bodies_, rule_.h);
 }
 
 void ImpulseWorld::warm_start() {
   bonds_.warm_start(bodies_.moving.data());
-  pairs_.warm_start(bodies_);
+  pairs_.start(bodies_);
   walls_.warm_start(bodies_.moving.data());
 }
 
@@ -128,7 +153,7 @@ void ImpulseWorld::list_anew() {
     balls_[p] = {units_.position(bodies_.position[p]), units_.length * static_cast<double>(bodies_.radius(p))};
   const double skin = static_cast<double>(skin_) * units_.length;
   grid_.build(balls_, skin);
-  pairs_.list(grid_, balls_, bodies_.ghost, skin);
+  pairs_.list(bodies_, skin_);
   walls_.list(grid_, balls_, bodies_.ghost, skin);
   listed_at_ = bodies_.position;
   listed_ = true;
@@ -173,7 +198,7 @@ std::vector<Contact> ImpulseWorld::contacts() const {
 }
 
 StepWork ImpulseWorld::work() const {
-  return {bodies_.roster.count(), pairs_.rows().size() + walls_.rows().size(), bonds_.entries().size()};
+  return {bodies_.roster.count(), pairs_.count() + walls_.rows().size(), bonds_.entries().size()};
 }
 
 }  // namespace moraine::impulse

@@ -43,6 +43,8 @@ class ImpulseWorld final : public World {
 
  private:
   void settle();
+  void admit(std::size_t before);
+  void drop_lists();
   bool moved_too_far() const;
   void list_anew();
   float suitable_skin() const;
@@ -64,7 +66,8 @@ class ImpulseWorld final : public World {
 
   native::SizedGrid grid_;
   std::vector<native::Ball> balls_;  ///< of the last listing, world frame [m]
-  std::vector<Vec> listed_at_;
+  std::vector<Vec> listed_at_;       ///< positions to which lists refer
+  std::vector<Place> newcomers_;
   float skin_ = 0;  ///< of the lists
   bool listed_ = false;
 };
