@@ -14,6 +14,16 @@ Ledger sum(const std::vector<Report>& reports, Ledger ledger) {
   return ledger;
 }
 
+EnergyAccount energy(const Ledger& opening, const Ledger& now, double gained) {
+  return {now.kinetic_energy,
+          now.potential_energy,
+          now.bond_energy,
+          now.contact_energy,
+          now.work,
+          opening.energy() + now.work - now.energy(),
+          gained};
+}
+
 }  // namespace
 
 std::uint64_t ghosts(const std::vector<Report>& reports) {
@@ -23,16 +33,28 @@ std::uint64_t ghosts(const std::vector<Report>& reports) {
 }
 
 void Accounts::note_extremes(const std::vector<Report>& reports) {
-  const Ledger now = sum(reports, {});
+  const Ledger now = sum(reports, closed);
   ghosts_max = std::max(ghosts_max, ghosts(reports));
   speed_sum_max = std::max(speed_sum_max, now.speed_sum);
   spin_scale_max = std::max(spin_scale_max, now.spin_scale);
+  kinetic_max = std::max(kinetic_max, now.kinetic_energy);
+  bond_max = std::max(bond_max, now.bond_energy);
+  const double left = now.energy() - now.work;
+  least_energy = std::min(least_energy, left);
+  gained = std::max(gained, left - least_energy);
+}
+
+void Accounts::mark(const std::vector<Report>& reports, std::int64_t round) {
+  marked_round = round;
+  marked_impulse = sum(reports, closed).from_boundaries;
 }
 
 void Accounts::take_over(const std::vector<Report>& reports) {
   rounds += reports.front().rounds;
   for (const Report& r : reports) {
     closed.given += r.ledger.given;
+    closed.from_boundaries += r.ledger.from_boundaries;
+    closed.work += r.ledger.work;
     closed.exchanged += r.ledger.exchanged;
     closed.exchanged_angular += r.ledger.exchanged_angular;
     disagreement += r.disagreement;
@@ -45,7 +67,7 @@ void Accounts::take_over(const std::vector<Report>& reports) {
   ++recuts;
 }
 
-ModelStatistics Accounts::statistics(const std::vector<Report>& reports, double speed) const {
+ModelStatistics Accounts::statistics(const std::vector<Report>& reports, double speed, double time_since_mark) const {
   Accounts all = *this;
   if (!reports.empty()) all.take_over(reports);
   ModelStatistics s;
@@ -60,6 +82,8 @@ ModelStatistics Accounts::statistics(const std::vector<Report>& reports, double 
   s.linear_residual = relative(linear.norm(), std::max({speed_sum_max, s.ledger.speed_sum, s.ledger.exchanged}));
   s.angular_residual =
       relative(angular.norm(), std::max({spin_scale_max, s.ledger.spin_scale, s.ledger.exchanged_angular}));
+  s.energy = energy(opening, s.ledger, gained);
+  if (time_since_mark > 0) s.boundary_force = (s.ledger.from_boundaries - marked_impulse) / time_since_mark;
   if (all.disagreements > 0)
     s.coupling_residual = std::sqrt(all.disagreement / static_cast<double>(all.disagreements)) / speed;
   return s;

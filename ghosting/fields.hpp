@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ghosting/accounts.hpp"
+#include "ghosting/guards.hpp"
 #include "ghosting/report.hpp"
 #include "ghosting/sub_model.hpp"
 #include "physics/bytes.hpp"
@@ -72,14 +73,23 @@ void io(Io& s, T& x) {
     all(s, x.a, x.b, x.with_boundary, x.normal, x.sliding, x.rolling);
   } else if constexpr (std::is_same_v<U, Accounts>) {
     all(s, x.opening, x.closed, x.recuts, x.disagreement, x.disagreements, x.ghost_rounds, x.rounds, x.broken_bonds,
-        x.ghosts_max, x.speed_sum_max, x.spin_scale_max);
+        x.ghosts_max, x.speed_sum_max, x.spin_scale_max, x.kinetic_max, x.bond_max, x.least_energy, x.gained,
+        x.marked_round, x.marked_impulse);
+  } else if constexpr (std::is_same_v<U, Worst>) {
+    all(s, x.value, x.element);
+  } else if constexpr (std::is_same_v<U, Extremes>) {
+    all(s, x.speed, x.stride, x.beyond, x.below);
+  } else if constexpr (std::is_same_v<U, GuardLog::Entry>) {
+    all(s, x.count, x.first, x.first_step, x.worst, x.worst_step);
+  } else if constexpr (std::is_same_v<U, GuardLog>) {
+    all(s, x.entries, x.looks, x.disagreement, x.disagreements);
   } else if constexpr (std::is_same_v<U, Report>) {
-    all(s, x.bounds, x.max_speed, x.ledger, x.disagreement, x.disagreements, x.ghosts, x.ghost_rounds, x.rounds,
-        x.broken_bonds);
+    all(s, x.bounds, x.max_speed, x.extremes, x.ledger, x.disagreement, x.disagreements, x.ghosts, x.ghost_rounds,
+        x.rounds, x.broken_bonds);
   } else {
     static_assert(std::is_same_v<U, Ledger>);
-    all(s, x.momentum, x.given, x.exchanged, x.exchanged_angular, x.kinetic_energy, x.speed_sum, x.spin_scale,
-        x.mass_moment, x.mass);
+    all(s, x.momentum, x.given, x.exchanged, x.exchanged_angular, x.from_boundaries, x.work, x.kinetic_energy,
+        x.potential_energy, x.bond_energy, x.contact_energy, x.speed_sum, x.spin_scale, x.mass_moment, x.mass);
   }
 }
 

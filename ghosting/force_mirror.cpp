@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Force mirror: the owner turns what an element's copies did into the element's one state, and what they carry on.
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 
 #include "ghosting/sub_model.hpp"
@@ -62,50 +61,6 @@ void SubModel::combine(SharedElement& shared) {
   disagreement_ += context_.coupling->combine(shared, copy_motions_, context);
   disagreements_ += shared.copies.size();
   motions_[shared.member] = {shared.state.pose.position, shared.state.twist};
-}
-
-/// Angular momentum of spheres is I w; of other shapes the body-frame inertia is turned into the world frame.
-Vec3 SubModel::spin(std::size_t member) const {
-  const Shape& shape = context_.scene->shape_of(context_.scene->elements[members_[member]]);
-  const Vec3& w = motions_[member].twist.angular;
-  if (shape.sphere()) return mass_[member] * shape.inertia_per_mass.x() * w;
-  const Quat q = state(member).pose.orientation;
-  return q * Vec3(mass_[member] * shape.inertia_per_mass.cwiseProduct(q.conjugate() * w));
-}
-
-/// Where the members' masses are when forces act.
-void SubModel::open_account() {
-  const double ahead = context_.engine->force_time * context_.world.substep;
-  mass_moment_before_.setZero();
-  for (std::size_t i = 0; i < members_.size(); ++i)
-    mass_moment_before_ += mass_[i] * (motions_[i].position + ahead * motions_[i].twist.linear);
-}
-
-/// What gravity and boundaries gave in this substep.
-void SubModel::close_account() {
-  if (members_.empty()) return;
-  const Vec3 step = context_.scene->gravity * context_.world.substep;
-  const Impulse gravity{std::accumulate(mass_.begin(), mass_.end(), 0.0) * step, mass_moment_before_.cross(step)};
-  const Impulse walls = world_->boundary_impulse();
-  ledger_.given += gravity;
-  ledger_.given += walls;
-  ledger_.exchanged += gravity.linear.norm() + walls.linear.norm();
-  ledger_.exchanged_angular += gravity.angular.norm() + walls.angular.norm();
-}
-
-Ledger SubModel::ledger() const {
-  Ledger now = ledger_;
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    const BodyMotion& m = motions_[i];
-    const Vec3 p = mass_[i] * m.twist.linear, orbit = m.position.cross(p), turn = spin(i);
-    now.momentum += {p, orbit + turn};
-    now.kinetic_energy += 0.5 * (p.dot(m.twist.linear) + turn.dot(m.twist.angular));
-    now.speed_sum += p.norm();
-    now.spin_scale += orbit.norm() + turn.norm();
-    now.mass_moment += mass_[i] * m.position;
-    now.mass += mass_[i];
-  }
-  return now;
 }
 
 }  // namespace moraine

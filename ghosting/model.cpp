@@ -9,80 +9,25 @@
 #include <numeric>
 #include <tuple>
 
-#include "ghosting/auto_count.hpp"
 #include "ghosting/check.hpp"
 #include "ghosting/collect.hpp"
 #include "ghosting/fields.hpp"
 #include "ghosting/neighbours.hpp"
 #include "physics/errors.hpp"
+#include "physics/inner_radius.hpp"
 #include "runtime/balance/initial_owners.hpp"
 
 namespace moraine {
 namespace {
 
 constexpr std::int64_t rounds_between_cuts = 64;
+constexpr double averaged_from = 0.8;       // of the run: boundary forces are means over the rest
 constexpr std::int64_t longest_epoch = 64;  // rounds; sub-models can move and be saved between epochs only
-
-void check_shapes(const Scene& scene, const Engine& engine) {
-  for (const Element& e : scene.elements)
-    if (!engine.supports(scene.shapes[e.shape].geometry))
-      throw InputError(
-          fmt::format("{}: element {} has a shape that engine {} cannot do", scene.source, e.id, engine.name));
-}
-
-void check_step(const Scene& scene, const Engine& engine) {
-  const StepLimit limit = engine.step_limit(scene);
-  if (scene.time.substep() <= limit.substep) return;
-  throw InputError(
-      fmt::format("{}: a substep of {:.4g} s is too long for engine {}: the limit is {:.4g} s, set by {}; use "
-                  "a smaller time.dt or at least {:.0f} substeps",
-                  scene.source, scene.time.substep(), engine.name, limit.substep, limit.reason,
-                  std::ceil(scene.time.dt / limit.substep)));
-}
 
 /// Followers must be there before they are needed: see SubModel::borders_due.
 double follower_speed(const ModelContext& context) {
   if (!context.followers()) return std::numeric_limits<double>::infinity();
   return context.skin / (8 * context.world.substep);
-}
-
-std::size_t part_count(const Scene& scene, const Engine& engine, const Limits& limits) {
-  const auto asked = static_cast<std::size_t>(std::max(0, scene.run.sub_models));
-  const std::size_t parts = asked > 0 ? asked : auto_count(scene.elements.size(), engine, limits);
-  if (parts > limits.worlds)
-    throw InputError(
-        fmt::format("{}: {} sub-models are more than the {} worlds that engine {} ({}) allows in a process",
-                    scene.source, parts, limits.worlds, engine.name, scene.run.engine_profile));
-  const double capacity = static_cast<double>(limits.packed_spheres()) * (1 - limits.ghost_reserve);
-  const double largest = std::ceil(static_cast<double>(scene.elements.size()) / static_cast<double>(parts));
-  if (largest > capacity)
-    throw InputError(
-        fmt::format("{}: {:.0f} elements per sub-model are more than engine {} ({}) holds: {} touching elements, "
-                    "{:.0f} % of them kept "
-                    "for ghosts; use at least {:.0f} sub-models",
-                    scene.source, largest, engine.name, scene.run.engine_profile, limits.packed_spheres(),
-                    limits.ghost_reserve * 100, std::ceil(static_cast<double>(scene.elements.size()) / capacity)));
-  return parts;
-}
-
-/// Nothing in the scene can get this fast: ten times the speed of falling through the whole scene, added to what moves
-/// at the start or is driven.
-double runaway_speed(const Scene& scene) {
-  if (scene.run.max_speed > 0) return scene.run.max_speed;
-  Bounds box;
-  double speed = 0;
-  for (const Element& e : scene.elements) {
-    box.add(e.state.pose.position, scene.shape_of(e).bounding_radius);
-    speed =
-        std::max(speed, e.state.twist.linear.norm() + e.state.twist.angular.norm() * scene.shape_of(e).bounding_radius);
-  }
-  const double extent = box.empty() ? 1.0 : (box.max - box.min).norm();
-  for (const Boundary& b : scene.boundaries)
-    if (b.motion.moves())
-      speed = std::max(speed, b.motion.velocity.linear.norm() + b.motion.velocity.angular.norm() * extent);
-  const double fall = std::sqrt(2 * scene.gravity.norm() * extent);
-  const double bond_speed = scene.typical_diameter() / scene.time.substep();
-  return 10 * (speed + fall) + (scene.gravity.isZero() && speed == 0 ? bond_speed : 0);
 }
 
 std::uint32_t element_index(const Scene& scene, ElementId id) {
@@ -126,15 +71,6 @@ WorldSettings world_settings(const Scene& scene) {
   return w;
 }
 
-Limits find_limits(std::string_view profile) {
-  if (profile == "default") return {};
-  // PhysX as Longshaw et al. (2009) used it: 64 scenes, 64,000 shapes, 256,000 contact pairs per scene. A packed sphere
-  // takes part in 12 pairs, hence 21,333 of them. A tenth is kept free for ghosts, several times what a compact cut of
-  // that size needs.
-  if (profile == "physx") return {64'000, 256'000, 64, 0.1};
-  throw InputError(fmt::format("unknown engine profile '{}', expected one of: default, physx", profile));
-}
-
 CoupledModel::CoupledModel(const Scene& scene, runtime::Transport& transport) : transport_(transport) {
   context_.scene = &scene;
   context_.engine = &find_engine(scene.run.engine);
@@ -145,9 +81,14 @@ CoupledModel::CoupledModel(const Scene& scene, runtime::Transport& transport) : 
   for (const Bond& b : scene.bonds)
     context_.bond_ends.push_back({element_index(scene, b.a), element_index(scene, b.b)});
   context_.skin = (scene.run.skin > 0 ? scene.run.skin : coupling_row_->skin) * context_.world.length_unit;
+  context_.enclosure = Enclosure(scene);
+  context_.start = deepest_overlap(scene);
+  for (const Shape& s : scene.shapes) context_.inner_radius.push_back(inner_radius(s.geometry));
+  context_.advised = context_.engine->advised_step(scene);
   context_.speed_limit = std::min(runaway_speed(scene), follower_speed(context_));
   check_shapes(scene, *context_.engine);
   check_step(scene, *context_.engine);
+  context_.engine->check(scene);
   parts_ = part_count(scene, *context_.engine, context_.world.limits);
   split_ = &find_split(scene.run.split, scene, parts_);
   std::vector<ElementState> states;
@@ -268,9 +209,29 @@ runtime::EpochPlan CoupledModel::begin_epoch(std::int64_t next_round, std::int64
   return {std::min(at_most, epoch_end_ - next_round), !interrupted && !restored};
 }
 
-void CoupledModel::open_epoch() {
+void CoupledModel::conclude(std::int64_t round) { look(round, overlaps().max); }
+
+std::vector<Report> CoupledModel::look(std::int64_t round, double overlap) {
+  context_.enclosure.move(static_cast<double>(round) * context_.world.substep);
   std::vector<Report> now = reports();
   accounts_.note_extremes(now);
+  const TimeSettings& time = scene().time;
+  if (static_cast<double>(round) <= averaged_from * static_cast<double>(time.steps * time.substeps))
+    accounts_.mark(now, round);
+  guard_log_.look(watch(now, overlap), round / time.substeps);
+  return now;
+}
+
+Watch CoupledModel::watch(const std::vector<Report>& now, double overlap) {
+  const ModelStatistics s = accounts_.statistics(now, speed_unit(), 0);
+  Watch w{context_, {}, accounts_, s.linear_residual, s.angular_residual, 0, overlap};
+  for (const Report& r : now) w.extremes.note(r.extremes);
+  w.disagreement = guard_log_.disagreement_since(accounts_, now) / speed_unit();
+  return w;
+}
+
+void CoupledModel::open_epoch() {
+  std::vector<Report> now = look(epoch_begin_);
   ghosts_at_epoch_ = ghosts(now);
   if (share_after_cut_ < 0 && epoch_begin_ > rounds_at_cut_) share_after_cut_ = ghost_share();
   check_invariants(*this);
@@ -354,8 +315,11 @@ std::vector<ElementState> CoupledModel::states(std::optional<int> root) const {
   return out;
 }
 
-ModelStatistics CoupledModel::statistics() const {
-  return accounts_.statistics(reports(), context_.world.length_unit / context_.world.time_unit);
+double CoupledModel::speed_unit() const { return context_.world.length_unit / context_.world.time_unit; }
+
+ModelStatistics CoupledModel::statistics(std::int64_t round) const {
+  const double since = static_cast<double>(round - accounts_.marked_round) * context_.world.substep;
+  return accounts_.statistics(reports(), speed_unit(), since);
 }
 
 OverlapStatistics CoupledModel::overlaps() const {
@@ -386,12 +350,12 @@ OverlapStatistics CoupledModel::overlaps() const {
 
 void CoupledModel::save_common(std::vector<std::byte>& out) const {
   ByteWriter w(out);
-  fields::all(w, owners_, epoch_begin_, epoch_end_, share_after_cut_, rounds_at_cut_, accounts_);
+  fields::all(w, owners_, epoch_begin_, epoch_end_, share_after_cut_, rounds_at_cut_, accounts_, guard_log_);
 }
 
 void CoupledModel::load_common(std::span<const std::byte> in) {
   ByteReader r(in);
-  fields::all(r, owners_, epoch_begin_, epoch_end_, share_after_cut_, rounds_at_cut_, accounts_);
+  fields::all(r, owners_, epoch_begin_, epoch_end_, share_after_cut_, rounds_at_cut_, accounts_, guard_log_);
 }
 
 }  // namespace moraine

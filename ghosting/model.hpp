@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "ghosting/accounts.hpp"
+#include "ghosting/admission.hpp"
+#include "ghosting/guards.hpp"
 #include "ghosting/split.hpp"
 #include "ghosting/sub_model.hpp"
 #include "runtime/transport/transport.hpp"
@@ -51,12 +53,21 @@ class CoupledModel : public runtime::Model {
   /// When neighbours were settled last.
   std::uint64_t ghosts_at_epoch() const { return ghosts_at_epoch_; }
 
+  /// Texts of guards that warned for the first time since this was asked last.
+  std::vector<std::string> take_news() { return guard_log_.take_news(); }
+  /// All that guards warned of, with how often.
+  std::vector<std::string> warnings() const { return guard_log_.warnings(context_); }
+
   // The following are collective.
+
+  /// At the end of a run, after `round` rounds: what an epoch begins with. Errors: InvalidStateError, on all ranks.
+  void conclude(std::int64_t round);
 
   /// Canonical state of every element, ascending id; on all ranks, or on `root` alone (nothing elsewhere).
   std::vector<ElementState> states(std::optional<int> root = std::nullopt) const;
   std::vector<std::uint32_t> alive_bonds() const;
-  ModelStatistics statistics() const;
+  /// After `round` rounds of the run; without them there is no mean force on boundaries.
+  ModelStatistics statistics(std::int64_t round = 0) const;
   OverlapStatistics overlaps() const;
 
  private:
@@ -64,6 +75,10 @@ class CoupledModel : public runtime::Model {
   std::vector<ContactMemory> contact_memory() const;
   std::vector<std::vector<ContactMemory>> by_part(std::span<const ContactMemory> memory) const;
   void open_epoch();
+  /// Takes account of everything, and lets the guards look. Errors: InvalidStateError, on all ranks.
+  std::vector<Report> look(std::int64_t round, double overlap = 0);
+  Watch watch(const std::vector<Report>& now, double overlap);
+  double speed_unit() const;  ///< sqrt(g d) [m/s]
   bool should_recut() const;
   double ghost_share() const;
   void settle_neighbours(const std::vector<Report>& reports);
@@ -86,12 +101,11 @@ class CoupledModel : public runtime::Model {
   std::int64_t rounds_at_cut_ = 0;
   std::uint64_t ghosts_at_epoch_ = 0;
   Accounts accounts_;
+  GuardLog guard_log_;
 };
 
 /// Units and settings of the worlds a scene needs.
 WorldSettings world_settings(const Scene& scene);
 Features features_of(const Scene& scene);
-/// Limits by profile name ("default", "physx"). Errors: InputError.
-Limits find_limits(std::string_view profile);
 
 }  // namespace moraine

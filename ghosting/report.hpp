@@ -10,9 +10,36 @@
 
 namespace moraine {
 
+/// The element for which a number is largest: the first of them by sub-model and id.
+struct Worst {
+  double value = 0;
+  ElementId element = 0;
+
+  void note(double other, ElementId id) {
+    if (other > value) *this = {other, id};
+  }
+  void note(const Worst& other) { note(other.value, other.element); }
+};
+
+/// Of a sub-model's elements between epochs.
+struct Extremes {
+  Worst speed;   ///< [m/s]
+  Worst stride;  ///< way within a substep [element radii]
+  Worst beyond;  ///< depth of the centre behind what held it at the start [element radii]
+  Worst below;   ///< depth of the centre below the lowest boundary [element radii]
+
+  void note(const Extremes& o) {
+    speed.note(o.speed);
+    stride.note(o.stride);
+    beyond.note(o.beyond);
+    below.note(o.below);
+  }
+};
+
 struct Report {
   Bounds bounds;
   double max_speed = 0;  ///< of its elements [m/s]
+  Extremes extremes;
   Ledger ledger;
   double disagreement = 0;  ///< sum of squared speeds by which copies disagreed [m^2/s^2]
   std::uint64_t disagreements = 0;

@@ -47,6 +47,7 @@ SubModel::SubModel(const ModelContext& context, SubModelId id, std::vector<std::
     mass_.push_back(context_.element_mass(members_[i]));
     largest_radius_ = std::max(largest_radius_, radius_[i]);
   }
+  inner_bonds_.assign(inner_bonds.begin(), inner_bonds.end());
   for (const std::uint32_t b : inner_bonds) {
     const auto [first, second] = context_.bond_ends[b];
     world_->add_bond(b, slots_[member_index(first)], slots_[member_index(second)]);
@@ -113,7 +114,8 @@ void SubModel::count(std::span<std::uint32_t> out) const {
 double SubModel::memory() const { return 4000.0 * static_cast<double>(members_.size() + ghost_count()); }
 
 Report SubModel::report() const {
-  return {bounds_, max_speed_, ledger(), disagreement_, disagreements_, ghost_count(), ghost_rounds_, rounds_, broken_};
+  return {bounds_,        max_speed_,    extremes(),    ledger(), disagreement_,
+          disagreements_, ghost_count(), ghost_rounds_, rounds_,  broken_};
 }
 
 std::size_t SubModel::ghost_count() const {

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "ghosting/coupling.hpp"
+#include "ghosting/enclosure.hpp"
 #include "ghosting/ledger.hpp"
 #include "ghosting/messages.hpp"
 #include "ghosting/report.hpp"
 #include "physics/cell_grid.hpp"
+#include "physics/initial_overlap.hpp"
 #include "physics/world.hpp"
 #include "runtime/sub_model.hpp"
 
@@ -24,8 +26,12 @@ struct ModelContext {
   const Engine* engine = nullptr;
   const Coupling* coupling = nullptr;
   WorldSettings world;
-  double skin = 0;         ///< ghosts are made below this gap [m]
-  double speed_limit = 0;  ///< runaway above this [m/s]
+  double skin = 0;                   ///< ghosts are made below this gap [m]
+  double speed_limit = 0;            ///< runaway above this [m/s]
+  InitialOverlap start;              ///< the deepest
+  StepLimit advised;                 ///< up to which the engine is at its best
+  Enclosure enclosure;               ///< stands still during an epoch
+  std::vector<double> inner_radius;  ///< by shape [m]
   /// Ghosts show their owner's state and have no say.
   bool followers() const { return engine->ghosts == GhostKind::follower; }
   double element_mass(std::uint32_t element) const { return scene->elements[element].mass; }
@@ -141,6 +147,9 @@ class SubModel final : public runtime::SubModel {
   void collect_motions(const SharedElement& shared);
   void combine(SharedElement& shared);
   Vec3 spin(std::size_t member) const;
+  double stretch_energy(std::uint32_t bond, const Vec3& between) const;
+  double bond_energy() const;
+  Extremes extremes() const;
   void open_account();
   void close_account();
 
@@ -174,8 +183,9 @@ class SubModel final : public runtime::SubModel {
   std::vector<HostLink> host_links_;    ///< ascending owner
   std::vector<OwnerLink> owner_links_;  ///< ascending host
   std::vector<runtime::SubModelId> owners_, hosts_;
-  std::vector<SharedElement> shared_;  ///< ascending element
-  std::vector<std::uint32_t> broken_;  ///< bonds known broken, ascending
+  std::vector<SharedElement> shared_;       ///< ascending element
+  std::vector<std::uint32_t> inner_bonds_;  ///< among members at the start, ascending
+  std::vector<std::uint32_t> broken_;       ///< bonds known broken, ascending
   std::vector<std::uint32_t> newly_broken_;
 
   std::vector<BodyMotion> motions_;  ///< of members, canonical after the force mirror

@@ -31,6 +31,12 @@ Json costliest_of(const Summary::Profile& p) {
   return out;
 }
 
+Json json_of(const Summary::Energy& e) {
+  return {{"kinetic", e.kinetic},      {"potential", e.potential}, {"bond", e.bond},
+          {"contact", e.contact},      {"gained", e.gained},       {"work_of_boundaries", e.work_of_boundaries},
+          {"dissipated", e.dissipated}};
+}
+
 Json json_of(const Summary::Load& l, const Summary::Profile& p) {
   return {{"imbalance", l.imbalance},
           {"utilisation", l.utilisation},
@@ -93,6 +99,8 @@ Json results_of(const Summary& s) {
           {"bonds", {{"total", s.bonds.total}, {"broken", s.bonds.broken}}},
           {"momentum_residual", {{"linear", s.momentum_residual.linear}, {"angular", s.momentum_residual.angular}}},
           {"kinetic_energy", s.kinetic_energy},
+          {"energy", json_of(s.energy)},
+          {"boundary_force", s.boundary_force},
           {"center_of_mass", s.center_of_mass},
           {"x95", s.x95},
           {"overlap", {{"max", s.overlap.max}, {"mean", s.overlap.mean}}},

@@ -41,6 +41,10 @@ struct Summary {
     double linear = 0, angular = 0;
   } momentum_residual;        ///< relative: change not explained by external impulse
   double kinetic_energy = 0;  ///< [J]
+  struct Energy {
+    double kinetic = 0, potential = 0, bond = 0, contact = 0, work_of_boundaries = 0, dissipated = 0, gained = 0;
+  } energy;                                ///< [J]; see docs/output.md
+  std::array<double, 3> boundary_force{};  ///< that boundaries exert, mean over the last fifth of the run [N]
   std::array<double, 3> center_of_mass{};
   double x95 = 0;  ///< 95 % of the elements have a smaller x [m]
   struct Overlap {

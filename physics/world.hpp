@@ -127,6 +127,11 @@ class World {
 
   /// Total impulse that boundaries gave to real bodies in the last step; angular part about the world origin.
   virtual Impulse boundary_impulse() const = 0;
+  /// Work that driven boundaries did on real bodies in the last step [J]: impulse times velocity of the surface.
+  virtual double boundary_work() const = 0;
+  /// Elastic energy in the contacts of real bodies now [J]; a contact with a ghost counts half. 0 if contacts are
+  /// rigid. Cost: linear in contacts; not for every step.
+  virtual double contact_energy() const { return 0; }
   /// Contacts of the last step, ascending (a, b). Cost: linear in contacts; not for every step.
   virtual std::vector<Contact> contacts() const = 0;
   virtual StepWork work() const = 0;
@@ -170,7 +175,11 @@ struct Engine {
   GhostKind ghosts = GhostKind::partner;
   /// When in a substep forces act, 0 .. 1: 0 at its start (semi-implicit Euler), 0.5 in the middle (Verlet).
   double force_time = 0;
+  /// What else it cannot run. Errors: InputError naming the limit and the value.
+  void (*check)(const Scene&) = [](const Scene&) {};
   StepLimit (*step_limit)(const Scene&) = [](const Scene&) { return StepLimit{}; };
+  /// Up to which it is at its best; beyond, it is stable but wrong.
+  StepLimit (*advised_step)(const Scene&) = [](const Scene&) { return StepLimit{}; };
 };
 
 std::span<const Engine> engines();

@@ -114,7 +114,7 @@ Frame capture(const CoupledModel& model, runtime::Transport& transport, std::int
 
 Summary summarise(const CoupledModel& model, runtime::Simulation& simulation, double wall_s, double loop_wall_s) {
   const Scene& scene = model.scene();
-  const ModelStatistics statistics = model.statistics();
+  const ModelStatistics statistics = model.statistics(scene.time.steps * scene.time.substeps);
   const OverlapStatistics overlaps = model.overlaps();
   runtime::Transport& transport = simulation.transport();
   const runtime::LoadRecord load = all_ranks(simulation.load(), transport);
@@ -150,6 +150,9 @@ Summary summarise(const CoupledModel& model, runtime::Simulation& simulation, do
   s.bonds = {scene.bonds.size(), statistics.bonds_broken};
   s.momentum_residual = {statistics.linear_residual, statistics.angular_residual};
   s.kinetic_energy = statistics.ledger.kinetic_energy;
+  const EnergyAccount& e = statistics.energy;
+  s.energy = {e.kinetic, e.potential, e.bond, e.contact, e.work_of_boundaries, e.dissipated, e.gained};
+  s.boundary_force = {statistics.boundary_force.x(), statistics.boundary_force.y(), statistics.boundary_force.z()};
   if (statistics.ledger.mass > 0) {
     const Vec3 centre = statistics.ledger.mass_moment / statistics.ledger.mass;
     s.center_of_mass = {centre.x(), centre.y(), centre.z()};
@@ -167,6 +170,7 @@ Summary summarise(const CoupledModel& model, runtime::Simulation& simulation, do
         load.busy() > 0 ? load.stages[i].taken.seconds / load.busy() : 0;
   s.recuts = statistics.recuts;
   s.warnings = scene.warnings;
+  for (std::string& warning : model.warnings()) s.warnings.push_back(std::move(warning));
   return s;
 }
 

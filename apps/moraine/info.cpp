@@ -47,9 +47,12 @@ std::string barrier_text(std::size_t parts, int threads) {
 }
 
 std::string time_limit_text(const Scene& scene) {
-  const StepLimit limit = find_engine(scene.run.engine).step_limit(scene);
-  if (limit.reason.empty()) return "none";
-  return fmt::format("{:.4g} s per substep, set by {}", limit.substep, limit.reason);
+  const Engine& engine = find_engine(scene.run.engine);
+  const StepLimit limit = engine.step_limit(scene), advice = engine.advised_step(scene);
+  std::string text = "none";
+  if (!limit.reason.empty()) text = fmt::format("{:.4g} s per substep, set by {}", limit.substep, limit.reason);
+  if (!advice.reason.empty()) text += fmt::format("; best up to {:.4g} s, set by {}", advice.substep, advice.reason);
+  return text;
 }
 
 /// A sub-model belongs to one rank, so the rank with most of them bounds what all can use: equal sub-models, any

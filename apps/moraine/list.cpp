@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "ghosting/coupling.hpp"
+#include "ghosting/guards.hpp"
 #include "ghosting/split.hpp"
 #include "output/writer.hpp"
 #include "physics/world.hpp"
@@ -30,6 +31,7 @@ int list() {
   print("schedulers", runtime::schedulers());
   print("balancers", runtime::balancers());
   print("output formats", writers());
+  print("guards", guards());
   return 0;
 }
 

@@ -46,7 +46,7 @@ std::optional<Trouble> attempt(const std::function<void()>& command) {
   } catch (const InputError& e) {
     return Trouble{e.what(), InputError::exit_status, false};
   } catch (const InvalidStateError& e) {
-    return Trouble{e.what(), InvalidStateError::exit_status, false};
+    return Trouble{e.what(), InvalidStateError::exit_status, true};
   } catch (const std::exception& e) {
     return Trouble{e.what(), IoError::exit_status, false};
   }

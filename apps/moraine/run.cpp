@@ -76,7 +76,9 @@ class Run {
     const auto loop = Clock::now();
     simulation_.run(first_round_, rounds() - first_round_);
     const double loop_wall = since(loop);
+    model_.conclude(rounds());
     progress_.finish();
+    print_news();
     write_frame(scene_.time.steps);
     if (writes()) writer_->finish();
     return summarise(model_, simulation_, since(begin_), loop_wall);
@@ -120,8 +122,14 @@ class Run {
     const std::int64_t step = round / scene_.time.substeps;
     progress_.update({step, static_cast<double>(round) * scene_.time.substep(), model_.ghosts_at_epoch(),
                       simulation_.load().imbalance()});
+    print_news();
     const std::int64_t period = rounds_per_frame();
     if (period > 0 && round % period == 0 && round < rounds()) write_frame(step);
+  }
+
+  void print_news() {
+    for (const std::string& text : model_.take_news())
+      if (writes()) std::cerr << "moraine: warning: " << text << '\n';
   }
 
   void write_frame(std::int64_t step) {
@@ -179,6 +187,9 @@ Summary run_all(const Scene& scene, runtime::Transport& transport) {
   try {
     return Run(scene, transport).go();
   } catch (const runtime::RunError&) {
+    if (transport.rank() == 0) std::cerr << resume_note(scene);
+    throw;
+  } catch (const InvalidStateError&) {
     if (transport.rank() == 0) std::cerr << resume_note(scene);
     throw;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/bullet/world.hpp"
+#include "physics/step_advice.hpp"
 
 namespace moraine::bullet {
 namespace {
@@ -20,9 +21,13 @@ std::unique_ptr<World> make(const WorldSettings& settings, const Vec3& origin) {
 }  // namespace
 
 Engine engine() {
-  return {"bullet",      "Bullet 3.24, float32: spheres, boxes, capsules, hulls, compounds; friction, bonds",
-          "float32",     supports,
-          relative_cost, make};
+  return {.name = "bullet",
+          .help = "Bullet 3.24, float32: spheres, boxes, capsules, hulls, compounds; friction, bonds",
+          .precision = "float32",
+          .supports = supports,
+          .relative_cost = relative_cost,
+          .make = make,
+          .advised_step = impulse_step_advice};
 }
 
 }  // namespace moraine::bullet

@@ -194,9 +194,18 @@ void BulletWorld::step(double t) {
   sum_boundary_impulse();
 }
 
+/// Of a driven boundary's surface, as the solver sees it.
+Vec3 BulletWorld::boundary_velocity(std::size_t boundary, const Vec3& point) const {
+  const btRigidBody& body = *boundaries_[boundary]->body;
+  const Vec3 arm = point - units_.position(body.getWorldTransform().getOrigin());
+  const Vec3 spin = Units::raw(body.getAngularVelocity()) / units_.time;
+  return Units::raw(body.getLinearVelocity()) * units_.velocity() + spin.cross(arm);
+}
+
 /// Reaction of the boundaries on real elements; contacts with boundaries have the boundary as second body.
 void BulletWorld::sum_boundary_impulse() {
   boundary_impulse_ = {};
+  boundary_work_ = 0;
   broadphase_.each_contact_pair([&](btBroadphasePair& pair) {
     if (!tag(pair.m_pProxy1).is_boundary()) return;
     btManifoldArray manifolds;
@@ -205,6 +214,8 @@ void BulletWorld::sum_boundary_impulse() {
       for (int k = 0; k < manifolds[i]->getNumContacts(); ++k) {
         const Contact c = contact(*manifolds[i], manifolds[i]->getContactPoint(k));
         boundary_impulse_ += {c.impulse, c.point.cross(c.impulse)};
+        if (boundaries_[c.b]->body->isKinematicObject())
+          boundary_work_ += c.impulse.dot(boundary_velocity(c.b, c.point));
       }
   });
 }

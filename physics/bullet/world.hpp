@@ -36,6 +36,7 @@ class BulletWorld final : public World {
   void step(double t) override;
 
   Impulse boundary_impulse() const override { return boundary_impulse_; }
+  double boundary_work() const override { return boundary_work_; }
   std::vector<Contact> contacts() const override;
   StepWork work() const override;
 
@@ -64,6 +65,7 @@ class BulletWorld final : public World {
   void move_boundaries(double t);
   btTransform boundary_pose(const Boundary& boundary, double t) const;
   void sum_boundary_impulse();
+  Vec3 boundary_velocity(std::size_t boundary, const Vec3& point) const;
   void use_pair_laws() const;
   void clear();
   Slot slot_of(const btRigidBody* body) const { return static_cast<Slot>(body->getUserIndex()); }
@@ -92,6 +94,7 @@ class BulletWorld final : public World {
 
   double time_ = 0;  ///< at the start of the last step [s]: where driven boundaries stand
   Impulse boundary_impulse_;
+  double boundary_work_ = 0;
   std::size_t bodies_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/impulse/world.hpp"
+#include "physics/step_advice.hpp"
 
 namespace moraine::impulse {
 namespace {
@@ -25,7 +26,8 @@ Engine engine() {
           .precision = "float32",
           .supports = supports,
           .relative_cost = relative_cost,
-          .make = make};
+          .make = make,
+          .advised_step = impulse_step_advice};
 }
 
 }  // namespace moraine::impulse

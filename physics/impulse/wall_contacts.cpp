@@ -111,9 +111,11 @@ void WallContacts::relax() {
 /// Impulses act on a ball at its radius.
 void WallContacts::sum_impulse(const Bodies& bodies) {
   impulse_ = {};
+  work_ = 0;
   for (const WallRow& row : rows_) {
     const Vec3 given = units_.momentum() * wide(row.push * row.normal + row.side);
     const Vec3 arm = units_.length * static_cast<double>(bodies.radius(row.ball)) * wide(row.normal);
+    work_ += units_.velocity() * given.dot(wide(row.velocity));
     impulse_ += {given, (units_.position(bodies.position[row.ball]) - arm).cross(given)};
   }
 }

@@ -41,6 +41,8 @@ class WallContacts {
   void restore(std::vector<WallRow> rows) { rows_ = std::move(rows); }
   /// Given to the balls in the last step, angular part about the world frame's origin.
   const Impulse& impulse() const { return impulse_; }
+  /// Of driven walls in the last step [J].
+  double work() const { return work_; }
   /// Sums it up, before bodies move on.
   void sum_impulse(const Bodies& bodies);
 
@@ -60,6 +62,7 @@ class WallContacts {
   std::vector<WallRow> rows_, before_;
   std::size_t passed_ = 0;  ///< of `before_`: those of earlier balls and walls
   Impulse impulse_;
+  double work_ = 0;
 };
 
 }  // namespace moraine::impulse

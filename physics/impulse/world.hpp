@@ -34,6 +34,7 @@ class ImpulseWorld final : public World {
   void step(double t) override;
 
   Impulse boundary_impulse() const override { return walls_.impulse(); }
+  double boundary_work() const override { return walls_.work(); }
   std::vector<Contact> contacts() const override;
   StepWork work() const override;
 

@@ -80,6 +80,17 @@ Push push(const ContactLaw& law, const Meeting& m, double h, Springs& springs) {
   return out;
 }
 
+/// Stored in the springs of a contact [J]: k d^2 / 2, or 2/5 of it per a = sqrt(R* d) (Hertz), and what the tangential
+/// springs hold. 0 if the surfaces are apart.
+inline double elastic_energy(const ContactLaws& laws, const ContactLaw& law, double radius, double overlap,
+                             const Springs& springs) {
+  if (overlap <= 0) return 0;
+  const double a = laws.hertz() ? std::sqrt(radius * overlap) : 1.0;
+  const double normal = (laws.hertz() ? 0.4 : 0.5) * law.stiffness * overlap * overlap;
+  const double side = 0.5 * law.tangential * (springs.sliding.squaredNorm() + springs.rolling.squaredNorm());
+  return a * (normal + side);
+}
+
 /// Calls visit(Parts<...>{}) with what these laws use. Rolling friction comes with friction only.
 template <class Visit>
 void with_parts(const ContactLaws& laws, Visit&& visit) {

@@ -56,6 +56,19 @@ void PairContacts::find_touching(const Bodies& bodies) {
   touching_.resize(found);
 }
 
+double PairContacts::energy(const Bodies& bodies) const {
+  double sum = 0;
+  for (const std::uint32_t k : touching_) {
+    const Place i = pairs_.lower()[k], j = pairs_.higher()[k];
+    const double a = bodies.ball[i].radius, b = bodies.ball[j].radius;
+    const double overlap = a + b - (bodies.position[i] - bodies.position[j]).norm();
+    const ContactLaw& law = laws_.of(bodies.moving[i].material, bodies.moving[j].material);
+    const double share = bodies.ghost[i] || bodies.ghost[j] ? 0.5 : 1;
+    sum += share * elastic_energy(laws_, law, a * b / (a + b), overlap, springs(k));
+  }
+  return sum;
+}
+
 template <class Uses>
 void PairContacts::act_on_touching(Bodies& bodies, double h) {
   for (const std::uint32_t k : touching_) {

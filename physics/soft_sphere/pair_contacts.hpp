@@ -28,6 +28,8 @@ class PairContacts {
   /// Adds all forces to the loads and advances the springs by h. Cost: linear in listed pairs.
   void act(Bodies& bodies, double h);
   std::size_t count() const { return touching_.size(); }
+  /// Elastic energy with the positions of now, half of it where a body is a ghost [J].
+  double energy(const Bodies& bodies) const;
   /// Calls visit(low, high, meeting, push) for every contact of the last step, ascending, with the velocities of now.
   template <class Visit>
   void each(const Bodies& bodies, Visit&& visit) const;

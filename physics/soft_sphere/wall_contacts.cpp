@@ -23,6 +23,7 @@ void WallContacts::list(const native::SizedGrid& grid, const Bodies& bodies, dou
 
 void WallContacts::act(Bodies& bodies, double h) {
   impulse_ = {};
+  work_ = 0;
   std::swap(contacts_, before_);
   contacts_.clear();
   passed_ = 0;
@@ -76,8 +77,21 @@ void WallContacts::act_on(Bodies& bodies, Group group, double h) {
     const Vec3 torque = touch.distance * p.moment + p.couple;
     bodies.load[place].torque += torque;
     impulse_ += {h * p.force, h * (ball.centre.cross(p.force) + torque)};
+    if (wall.moves()) work_ += h * p.force.dot(wall.velocity(c.point));
     contacts_.push_back(c);
   }
+}
+
+/// Places are those in the middle of the step; half a step of closing is added.
+double WallContacts::energy(const Bodies& bodies, double h) const {
+  double sum = 0;
+  for (const LastingWallContact& c : contacts_) {
+    const Meeting m = meet(bodies, c);
+    const double overlap = c.overlap - h / 2 * m.velocity.dot(m.normal);
+    sum += elastic_energy(laws_, laws_.of(bodies.moving[c.ball].material, walls_[c.wall].material()), m.radius, overlap,
+                          c.springs);
+  }
+  return sum;
 }
 
 Push WallContacts::push_of(const Bodies& bodies, const LastingWallContact& contact) const {

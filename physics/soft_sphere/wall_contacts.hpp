@@ -34,6 +34,10 @@ class WallContacts {
   void act(Bodies& bodies, double h);
   /// Given to the balls in the last step, angular part about the world origin.
   const Impulse& impulse() const { return impulse_; }
+  /// Of driven walls in the last step [J].
+  double work() const { return work_; }
+  /// Elastic energy at the end of the last step of h seconds [J].
+  double energy(const Bodies& bodies, double h) const;
   /// The push of a contact of the last step, with the velocities of now.
   Push push_of(const Bodies& bodies, const LastingWallContact& contact) const;
 
@@ -51,6 +55,7 @@ class WallContacts {
   std::size_t passed_ = 0;  ///< of `before_`: those of earlier balls and walls
   std::vector<native::Nearest> touches_;
   Impulse impulse_;
+  double work_ = 0;
 };
 
 }  // namespace moraine::soft_sphere

@@ -171,6 +171,11 @@ std::vector<Contact> SoftSphereWorld::contacts() const {
   return out;
 }
 
+double SoftSphereWorld::contact_energy() const {
+  if (!listed_ || bodies_.unsettled()) return 0;
+  return pairs_.energy(bodies_) + walls_.energy(bodies_, settings_.substep);
+}
+
 StepWork SoftSphereWorld::work() const {
   return {bodies_.count(), pairs_.count() + walls_.lasting().size(), bonds_.entries().size()};
 }

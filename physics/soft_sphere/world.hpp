@@ -36,6 +36,8 @@ class SoftSphereWorld final : public World {
   void step(double t) override;
 
   Impulse boundary_impulse() const override { return walls_.impulse(); }
+  double boundary_work() const override { return walls_.work(); }
+  double contact_energy() const override;
   /// Places are those of the last step, in the middle of it; impulses are worked out with the velocities at its end.
   std::vector<Contact> contacts() const override;
   StepWork work() const override;

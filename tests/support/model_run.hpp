@@ -46,6 +46,9 @@ class ModelRun {
     return *this;
   }
 
+  /// The end of the run, as guards see it.
+  void conclude() { model_.conclude(rounds_); }
+
   const Scene& scene() const { return scene_; }
   const CoupledModel& model() const { return model_; }
   runtime::SubModel& part(std::size_t i) { return model_.sub_model(static_cast<SubModelId>(i)); }

@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "physics/errors.hpp"
 #include "runtime/migrate/checkpoint.hpp"
 #include "runtime/run_error.hpp"
 #include "runtime/transport/loopback.hpp"
@@ -27,6 +28,8 @@ inline void on_ranks(const runtime::LoopbackOptions& options, const std::functio
       } catch (const runtime::RunError&) {
         errors[rank] = std::current_exception();
       } catch (const runtime::CheckpointError&) {
+        errors[rank] = std::current_exception();
+      } catch (const InvalidStateError&) {  // of a guard
         errors[rank] = std::current_exception();
       } catch (const std::exception& e) {
         std::cerr << "rank " << rank << " fails alone: " << e.what() << '\n';

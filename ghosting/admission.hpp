@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// What must hold before a scene may run: limits of engines, and limits that follow from the scene.
+#pragma once
+
+#include <string_view>
+
+#include "physics/world.hpp"
+
+namespace moraine {
+
+/// Limits by profile name ("default", "physx"). Errors: InputError.
+Limits find_limits(std::string_view profile);
+/// Errors: InputError naming what the engine cannot do, the limit and the value.
+void check_shapes(const Scene& scene, const Engine& engine);
+void check_step(const Scene& scene, const Engine& engine);
+/// How many sub-models the scene is cut into. Errors: InputError if the limits do not allow it.
+std::size_t part_count(const Scene& scene, const Engine& engine, const Limits& limits);
+/// Nothing in the scene can get this fast: ten times the speed of falling through the whole scene, added to what moves
+/// at the start or is driven [m/s].
+double runaway_speed(const Scene& scene);
+
+}  // namespace moraine
