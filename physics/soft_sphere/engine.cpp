@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/soft_sphere/engine.hpp"
 
+#include "physics/soft_sphere/start_limit.hpp"
 #include "physics/soft_sphere/step_limit.hpp"
 #include "physics/soft_sphere/world.hpp"
 
@@ -27,6 +28,7 @@ Engine engine() {
           .make = make,
           .ghosts = GhostKind::follower,
           .force_time = 0.5,
+          .check = check_start,
           .step_limit = step_limit};
 }
 
