@@ -14,7 +14,8 @@
 namespace moraine {
 
 std::span<const Engine> engines() {
-  static const std::array table{bullet::engine(), impulse::engine(), soft_sphere::engine()};
+  static const std::array table{bullet::float32_engine(), bullet::float64_engine(), impulse::engine(),
+                                soft_sphere::engine()};
   return table;
 }
 

@@ -14,7 +14,7 @@ constexpr btScalar off = -1e10F;                // a right-hand side that no app
 constexpr btScalar negligible_overlap = 1e-7F;  // [element diameters]; float32 resolves no less
 
 /// A vector's three numbers and the padding after them, for the processor's four lanes.
-using Lanes = Eigen::Array4f;
+using Lanes = Eigen::Array<btScalar, 4, 1>;
 Eigen::Map<const Lanes> lanes(const btVector3& v) { return Eigen::Map<const Lanes>(v.m_floats); }
 Eigen::Map<Lanes> lanes(btVector3& v) { return Eigen::Map<Lanes>(v.m_floats); }
 

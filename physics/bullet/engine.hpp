@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bullet's row in the table of engines.
+// Bullet's rows in the table of engines.
 #pragma once
 
 #include "physics/world.hpp"
 
 namespace moraine::bullet {
 
-Engine engine();
+Engine float32_engine();
+Engine float64_engine();
 
 }  // namespace moraine::bullet

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Bullet world to bytes and back: bodies with their exact matrices, contacts with their warm-start impulses, bonds.
+#include <fmt/format.h>
+
 #include "physics/bullet/impact_memory.hpp"
+#include "physics/bullet/precision.hpp"
 #include "physics/bullet/world.hpp"
 #include "physics/bytes.hpp"
 
 namespace moraine::bullet {
 namespace {
 
-constexpr std::uint32_t magic = 0x4d42574cU;  // "LWBM"
+constexpr std::uint32_t magic = is_double ? 0x4442574cU : 0x4d42574cU;  // "LWBD", "LWBM"
 constexpr std::uint32_t version = 3;
 
 struct BodyImage {
@@ -152,7 +155,7 @@ void BulletWorld::save_bonds(ByteWriter& w) const {
 void BulletWorld::load(std::span<const std::byte> in) {
   ByteReader r(in);
   if (r.get<std::uint32_t>() != magic || r.get<std::uint32_t>() != version)
-    throw IoError("saved state is not of this version of the bullet engine");
+    throw IoError(fmt::format("saved state is not of this version of engine {}", engine_name));
   clear();
   time_ = r.get<double>();
   move_boundaries(time_);

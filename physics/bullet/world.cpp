@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <mutex>
 
+#include "physics/bullet/precision.hpp"
 #include "physics/bullet/settings.hpp"
 
 namespace moraine::bullet {
@@ -65,9 +66,9 @@ void BulletWorld::check_limits() const {
   const std::size_t count = bodies_ + boundaries_.size() + 1;
   if (count > settings_.limits.elements)
     throw InputError(
-        fmt::format("engine bullet: {} elements, ghosts and boundaries in one sub-model, the limit is {}; "
+        fmt::format("engine {}: {} elements, ghosts and boundaries in one sub-model, the limit is {}; "
                     "use more sub-models",
-                    count, settings_.limits.elements));
+                    engine_name, count, settings_.limits.elements));
 }
 
 Slot BulletWorld::free_slot() {
