@@ -25,24 +25,30 @@ btVector3 velocity(const btSolverBody& b) {
 
 }  // namespace
 
-void BondSolver::add(const BondSpring& spring) { springs_.insert(place(springs_, spring.bond), spring); }
+void Bonds::add(const BondSpring& spring) { springs_.insert(place(springs_, spring.bond), spring); }
 
-void BondSolver::remove(std::uint32_t bond) {
+void Bonds::remove(std::uint32_t bond) {
   const auto at = place(springs_, bond);
   if (at != springs_.end() && at->bond == bond) springs_.erase(at);
 }
 
+BondSolver& BondSolver::of_thread(Bonds& bonds) {
+  thread_local BondSolver solver;
+  solver.bonds_ = &bonds;
+  return solver;
+}
+
 void BondSolver::convertJoints(btTypedConstraint** constraints, int count, const btContactSolverInfo& info) {
   ContactSolver::convertJoints(constraints, count, info);
-  drop_broken();
+  bonds_->drop_broken();
   rows_.clear();
-  for (const BondSpring& s : springs_) {
+  for (const BondSpring& s : bonds_->springs()) {
     rows_.push_back(make_row(s, info.m_timeStep));
     apply(rows_.back(), rows_.back().impulse);
   }
 }
 
-void BondSolver::drop_broken() {
+void Bonds::drop_broken() {
   broken_.clear();
   for (const BondSpring& s : springs_)
     if (!(line(s).length2() <= s.break_length * s.break_length)) broken_.push_back(s.bond);
@@ -98,7 +104,7 @@ btScalar BondSolver::solveSingleIteration(int iteration, btCollisionObject** bod
 
 btScalar BondSolver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int count,
                                                    const btContactSolverInfo& info) {
-  for (std::size_t i = 0; i < rows_.size(); ++i) springs_[i].impulse = rows_[i].impulse;
+  for (std::size_t i = 0; i < rows_.size(); ++i) bonds_->springs()[i].impulse = rows_[i].impulse;
   return ContactSolver::solveGroupCacheFriendlyFinish(bodies, count, info);
 }
 

@@ -22,19 +22,35 @@ struct BondSpring {
   btScalar impulse = 0;  ///< of the last step, tension positive; the next step's first guess
 };
 
-/// Each bond is one row along the line of centres. Its impulse over a step h is
-///   J = h k (L - L0) + Q v',  Q = h (theta h k + c),
-/// with v' the stretching speed at the end of the step: theta = 0 (symplectic Euler, no numerical damping) while
-/// h sqrt(k/m*) <= 1/2, which is stable in a packed lattice, and theta = 1 (implicit Euler) above. Bonds longer than
-/// their break length are dropped before the step they would act in.
-class BondSolver final : public ContactSolver {
+/// The bonds of a world.
+class Bonds {
  public:
   void add(const BondSpring& spring);
   void remove(std::uint32_t bond);
   void clear() { springs_.clear(); }
   std::span<const BondSpring> springs() const { return springs_; }
   std::span<BondSpring> springs() { return springs_; }
+  /// Drops those that are longer than they may be.
+  void drop_broken();
   std::span<const std::uint32_t> broken() const { return broken_; }
+
+ private:
+  std::vector<BondSpring> springs_;  ///< ascending bond
+  std::vector<std::uint32_t> broken_;
+};
+
+/// Each bond is one row along the line of centres. Its impulse over a step h is
+///   J = h k (L - L0) + Q v',  Q = h (theta h k + c),
+/// with v' the stretching speed at the end of the step: theta = 0 (symplectic Euler, no numerical damping) while
+/// h sqrt(k/m*) <= 1/2, which is stable in a packed lattice, and theta = 1 (implicit Euler) above. Bonds longer than
+/// their break length are dropped before the step they would act in.
+///
+/// A solver keeps nothing from one solve to the next but the memory of its rows, three for every contact. So the worlds
+/// that are stepped on one thread share one.
+class BondSolver final : public ContactSolver {
+ public:
+  /// The solver of this thread, for a world with these bonds.
+  static BondSolver& of_thread(Bonds& bonds);
 
  protected:
   void convertJoints(btTypedConstraint** constraints, int count, const btContactSolverInfo& info) override;
@@ -53,14 +69,12 @@ class BondSolver final : public ContactSolver {
     btScalar drag;          ///< Q
     btScalar impulse;
   };
-  void drop_broken();
   Row make_row(const BondSpring& spring, btScalar h);
   void apply(const Row& row, btScalar impulse);
   btScalar solve(Row& row);
 
-  std::vector<BondSpring> springs_;  ///< ascending bond
-  std::vector<Row> rows_;            ///< one per spring, during a step
-  std::vector<std::uint32_t> broken_;
+  Bonds* bonds_ = nullptr;
+  std::vector<Row> rows_;  ///< one per spring, during a step
 };
 
 }  // namespace moraine::bullet

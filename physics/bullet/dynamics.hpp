@@ -12,8 +12,8 @@ namespace moraine::bullet {
 /// No islands, no sleeping, no swept tests, no motion states; contacts reach the solver in id order.
 class Dynamics final : public btDiscreteDynamicsWorld {
  public:
-  Dynamics(btDispatcher* dispatcher, Broadphase* broadphase, BondSolver* solver, btCollisionConfiguration* config)
-      : btDiscreteDynamicsWorld(dispatcher, broadphase, solver, config), pairs_(*broadphase), solver_(*solver) {}
+  Dynamics(btDispatcher* dispatcher, Broadphase* broadphase, Bonds* bonds, btCollisionConfiguration* config)
+      : btDiscreteDynamicsWorld(dispatcher, broadphase, nullptr, config), pairs_(*broadphase), bonds_(*bonds) {}
 
   void updateAabbs() override {}  // the broad phase reads transforms itself
   int manifold_count() const { return manifolds_.size(); }
@@ -30,12 +30,13 @@ class Dynamics final : public btDiscreteDynamicsWorld {
     btCollisionObjectArray& all = getCollisionObjectArray();
     if (all.size() == 0) return;
     btPersistentManifold** manifolds = manifolds_.size() ? &manifolds_[0] : nullptr;
-    solver_.solveGroup(&all[0], all.size(), manifolds, manifolds_.size(), nullptr, 0, info, nullptr, getDispatcher());
+    BondSolver::of_thread(bonds_).solveGroup(&all[0], all.size(), manifolds, manifolds_.size(), nullptr, 0, info,
+                                             nullptr, getDispatcher());
   }
 
  private:
   Broadphase& pairs_;
-  BondSolver& solver_;
+  Bonds& bonds_;
   btAlignedObjectArray<btPersistentManifold*> manifolds_;
 };
 

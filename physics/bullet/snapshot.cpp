@@ -143,8 +143,8 @@ void BulletWorld::save_contacts(ByteWriter& w) const {
 }
 
 void BulletWorld::save_bonds(ByteWriter& w) const {
-  w.put(static_cast<std::uint64_t>(solver_.springs().size()));
-  for (const BondSpring& s : solver_.springs()) {
+  w.put(static_cast<std::uint64_t>(bonds_.springs().size()));
+  for (const BondSpring& s : bonds_.springs()) {
     w.put(s.bond);
     w.put(slot_of(s.a));
     w.put(slot_of(s.b));
@@ -210,7 +210,7 @@ void BulletWorld::load_bonds(ByteReader& r) {
     const auto a = r.get<Slot>();
     const auto b = r.get<Slot>();
     add_bond(bond, a, b);
-    solver_.springs().back().impulse = r.get<btScalar>();
+    bonds_.springs().back().impulse = r.get<btScalar>();
   }
 }
 

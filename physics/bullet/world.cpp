@@ -53,7 +53,7 @@ BulletWorld::BulletWorld(const WorldSettings& settings, const Vec3& origin)
       configuration_(make_configuration()),
       dispatcher_(configuration_.get()),
       sphere_contacts_(static_cast<btScalar>(settings.overlap_recovery)),
-      dynamics_(&dispatcher_, &broadphase_, &solver_, configuration_.get()) {
+      dynamics_(&dispatcher_, &broadphase_, &bonds_, configuration_.get()) {
   install_pair_laws();
   dispatcher_.registerCollisionCreateFunc(SPHERE_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE, &sphere_contacts_);
   apply_world_settings(dynamics_, settings_);
@@ -169,10 +169,10 @@ void BulletWorld::apply_impulse(Slot slot, const Impulse& impulse) {
 void BulletWorld::add_bond(std::uint32_t bond, Slot a, Slot b) {
   const Bond& s = settings_.scene->bonds[bond];
   const double stiffness = units_.mass / (units_.time * units_.time);
-  solver_.add({bond, entry(a).body.get(), entry(b).body.get(), static_cast<btScalar>(s.rest_length / units_.length),
-               static_cast<btScalar>(s.stiffness / stiffness),
-               static_cast<btScalar>(s.damping / (stiffness * units_.time)),
-               static_cast<btScalar>(s.break_length / units_.length), 0});
+  bonds_.add({bond, entry(a).body.get(), entry(b).body.get(), static_cast<btScalar>(s.rest_length / units_.length),
+              static_cast<btScalar>(s.stiffness / stiffness),
+              static_cast<btScalar>(s.damping / (stiffness * units_.time)),
+              static_cast<btScalar>(s.break_length / units_.length), 0});
 }
 
 void BulletWorld::use_pair_laws() const { active_materials = &settings_.scene->materials; }
@@ -183,7 +183,7 @@ void BulletWorld::clear() {
     if (e->body) dynamics_.removeRigidBody(e->body.get());
   entries_.clear();
   free_slots_.clear();
-  solver_.clear();
+  bonds_.clear();
   bodies_ = 0;
 }
 
@@ -249,7 +249,7 @@ std::vector<Contact> BulletWorld::contacts() const {
 }
 
 StepWork BulletWorld::work() const {
-  return {bodies_, static_cast<std::uint64_t>(dynamics_.manifold_count()), solver_.springs().size()};
+  return {bodies_, static_cast<std::uint64_t>(dynamics_.manifold_count()), bonds_.springs().size()};
 }
 
 }  // namespace moraine::bullet

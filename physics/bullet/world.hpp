@@ -30,8 +30,8 @@ class BulletWorld final : public World {
   void apply_impulse(Slot slot, const Impulse& impulse) override;
 
   void add_bond(std::uint32_t bond, Slot a, Slot b) override;
-  void remove_bond(std::uint32_t bond) override { solver_.remove(bond); }
-  std::span<const std::uint32_t> broken_bonds() const override { return solver_.broken(); }
+  void remove_bond(std::uint32_t bond) override { bonds_.remove(bond); }
+  std::span<const std::uint32_t> broken_bonds() const override { return bonds_.broken(); }
 
   void step(double t) override;
 
@@ -89,7 +89,7 @@ class BulletWorld final : public World {
   btCollisionDispatcher dispatcher_;
   SphereContact::Maker sphere_contacts_;
   mutable Broadphase broadphase_;
-  BondSolver solver_;
+  Bonds bonds_;
   Dynamics dynamics_;
 
   double time_ = 0;  ///< at the start of the last step [s]: where driven boundaries stand
