@@ -8,6 +8,7 @@
 #include "physics/bullet/engine.hpp"
 #include "physics/errors.hpp"
 #include "physics/impulse/engine.hpp"
+#include "physics/ode/engine.hpp"
 #include "physics/soft_sphere/engine.hpp"
 #include "physics/world.hpp"
 
@@ -15,7 +16,7 @@ namespace moraine {
 
 std::span<const Engine> engines() {
   static const std::array table{bullet::float32_engine(), bullet::float64_engine(), impulse::engine(),
-                                soft_sphere::engine()};
+                                soft_sphere::engine(), ode::engine()};
   return table;
 }
 

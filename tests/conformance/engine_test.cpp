@@ -6,12 +6,16 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/engine_scenes.hpp"
 #include "tests/support/model_run.hpp"
 #include "tests/support/single_world.hpp"
 
 namespace moraine {
 namespace {
 
+using test::balls;
+using test::floor;
+using test::pile_of;
 using test::same_bits;
 using test::set;
 using test::SingleWorld;
@@ -22,61 +26,10 @@ std::vector<std::string> engine_names() {
   return names;
 }
 
-/// A scene of balls of diameter `s` and more, that `scale`, `x` and `y` size and place.
-std::string balls(const std::string& items, const std::string& more = "", const std::string& material = "") {
-  return "parameters: {s: 1, x: 0, y: 0}\ngravity: [0, 0, -9.81]\nmaterials: {rock: {density: 1000" + material +
-         "}}\nelements:\n  - {packing: list, shape: {sphere: s / 2}, items: [" + items +
-         "]}\ntime: {dt: 0.005 * sqrt(s), steps: 1}\n" + more;
-}
-
-const std::string floor = "boundaries: [{plane: {point: [0, 0, 0], normal: [0, 0, 1]}}]\n";
-
-/// What only some engines do; the others get spheres in their place.
-const std::string other_shapes = R"(
-  - packing: list
-    shape: {box: [0.9 * s, 0.7 * s, 0.8 * s]}
-    items:
-      - {id: 200, at: [x + 0.8 * s, y + 0.8 * s, 3.8 * s], rotation: {axis: [1, 2, 0], angle: 20}}
-      - {id: 201, at: [x + 2.3 * s, y + 0.8 * s, 3.8 * s], shape: {capsule: {radius: 0.3 * s, length: 0.5 * s}}, rotation: {axis: [1, 0, 0], angle: 80}}
-      - {id: 202, at: [x + 0.8 * s, y + 2.3 * s, 3.8 * s], shape: {hull: {points: [[0.4 * s, 0, 0], [-0.4 * s, 0, 0], [0, 0.4 * s, 0], [0, -0.4 * s, 0], [0, 0, 0.5 * s], [0, 0, -0.5 * s]]}}}
-      - {id: 203, at: [x + 2.3 * s, y + 2.3 * s, 3.8 * s], shape: {compound: [{sphere: 0.3 * s, at: [-0.25 * s, 0, 0]}, {sphere: 0.3 * s, at: [0.25 * s, 0, 0]}]}}
-)";
-const std::string other_spheres = R"(
-  - packing: list
-    shape: {sphere: 0.4 * s}
-    items:
-      - {id: 200, at: [x + 0.8 * s, y + 0.8 * s, 3.8 * s]}
-      - {id: 201, at: [x + 2.3 * s, y + 0.8 * s, 3.8 * s], shape: {sphere: 0.2 * s}}
-      - {id: 202, at: [x + 0.8 * s, y + 2.3 * s, 3.8 * s], shape: {sphere: 0.6 * s}}
-      - {id: 203, at: [x + 2.3 * s, y + 2.3 * s, 3.8 * s]}
-)";
-
-/// Spheres and everything else, bonded here and there, fall a little into a box of planes and onto a mesh.
-std::string pile_of(const std::string& others) {
-  return R"(
-parameters: {s: 1, x: 0, y: 0}
-gravity: [0, 0, -9.81]
-materials: {rock: {density: 1000, friction: 0.5, restitution: 0.2}}
-elements:
-  - {packing: cubic, shape: {sphere: s / 2}, cells: [3, 3, 3], at: [x + 0.1 * s, y + 0.1 * s, 0.05 * s], jitter: 0.02, spacing: 1.05, seed: 4, id_start: 100})" +
-         others + R"(
-boundaries:
-  - {plane: {point: [x, y, 0], normal: [1, 0, 0]}}
-  - {plane: {point: [x, y, 0], normal: [0, 1, 0]}}
-  - {plane: {point: [x + 3.4 * s, y, 0], normal: [-1, 0, 0]}}
-  - {plane: {point: [x, y + 3.4 * s, 0], normal: [0, -1, 0]}}
-  - {box: [[x - s, y - s, 0], [x + 5 * s, y + 5 * s, 9 * s]], triangulated: true, open_top: true}
-bonds:
-  - {a: 100, b: 101, stiffness: 1e5 * s^2, damping: 100 * s^2.5, break_length: 1.2}
-  - {a: 104, b: 113, stiffness: 1e5 * s^2}
-time: {dt: 0.005 * sqrt(s), steps: 1}
-)";
-}
-
 class EngineContract : public testing::TestWithParam<std::string> {
  protected:
   const Engine& engine() const { return find_engine(GetParam()); }
-  std::string pile() const { return pile_of(engine().supports(Cuboid{}) ? other_shapes : other_spheres); }
+  std::string pile() const { return pile_of(engine()); }
 };
 
 /// Linear and angular momentum, the latter about the origin.

@@ -2,7 +2,7 @@
 // Saving and reloading every sub-model in place, whenever that is allowed, must not change a bit.
 #include <gtest/gtest.h>
 
-#include "tests/support/model_run.hpp"
+#include "tests/support/each_engine.hpp"
 
 namespace moraine {
 namespace {
@@ -41,8 +41,7 @@ std::uint64_t hash_after(const Scene& scene, Model& model) {
 }
 
 struct Case {
-  const char* name;
-  const char* scene;
+  std::string name, scene;
   std::vector<Override> settings;
 };
 
@@ -58,24 +57,17 @@ TEST_P(Reload, ChangesNothing) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, Reload,
-    testing::Values(
-        Case{"crust_small",
-             "crust_small",
-             {set("count", 800), set("radius", "3000"), set("dt", 1), set("steps", 100), set("run.sub_models", 4)}},
-        Case{"dam", "dam", {set("count", 600), set("time.duration", 2), set("run.sub_models", 5)}},
-        Case{"mixed_shapes", "mixed_shapes", {set("time.duration", 1.5), set("run.sub_models", 4)}},
-        Case{"bonded_beam", "bonded_beam", {set("time.duration", 0.5), set("run.sub_models", 3)}},
-        Case{"soft_spheres",
-             "dam",
-             {set("count", 300), set("time.dt", 3e-4), set("time.duration", 0.3), set("run.sub_models", 4),
-              set("run.engine", "soft_sphere"), set("materials.grain.restitution", 0.5)}},
-        Case{"dam_impulse",
-             "dam",
-             {set("count", 600), set("time.duration", 2), set("run.sub_models", 5), set("run.engine", "impulse")}},
-        Case{"beam_impulse",
-             "bonded_beam",
-             {set("time.duration", 0.5), set("run.sub_models", 3), set("run.engine", "impulse")}},
-        Case{"column", "column", {set("time.duration", 1), set("run.sub_models", 5)}}),
+    testing::ValuesIn(test::with_every_engine<Case>(
+        {Case{"crust_small",
+              "crust_small",
+              {set("count", 800), set("radius", "3000"), set("dt", 1), set("steps", 100), set("run.sub_models", 4)}},
+         Case{"mixed_shapes", "mixed_shapes", {set("time.duration", 1.5), set("run.sub_models", 4)}},
+         Case{"bonded_beam", "bonded_beam", {set("time.duration", 0.5), set("run.sub_models", 3)}},
+         Case{"beam_impulse",
+              "bonded_beam",
+              {set("time.duration", 0.5), set("run.sub_models", 3), set("run.engine", "impulse")}},
+         Case{"column", "column", {set("time.duration", 1), set("run.sub_models", 5)}}},
+        4)),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

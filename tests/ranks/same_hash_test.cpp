@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "runtime/schedule/registry.hpp"
-#include "tests/support/model_run.hpp"
+#include "tests/support/each_engine.hpp"
 #include "tests/support/rank_run.hpp"
 
 namespace moraine {
@@ -13,22 +13,16 @@ using test::example;
 using test::set;
 
 struct Case {
-  const char* name;
-  const char* scene;
+  std::string name, scene;
   std::vector<Override> settings;
 };
 
-const std::vector<Case> cases = {
+const std::vector<Case> examples = {
     {"crust_small",
      "crust_small",
      {set("count", 800), set("radius", "3000"), set("dt", 1), set("steps", 40), set("run.sub_models", 6)}},
-    {"dam", "dam", {set("count", 600), set("time.duration", 1.2), set("run.sub_models", 7)}},
     {"mixed_shapes", "mixed_shapes", {set("count", 80), set("time.duration", 1.2), set("run.sub_models", 5)}},
     {"bonded_beam", "bonded_beam", {set("time.duration", 0.3), set("run.sub_models", 5)}},
-    {"soft_spheres",
-     "dam",
-     {set("count", 300), set("time.dt", 3e-4), set("time.duration", 0.3), set("run.sub_models", 6),
-      set("run.engine", "soft_sphere"), set("materials.grain.restitution", 0.5)}},
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -96,7 +90,8 @@ TEST_P(SameHash, WithMoreRanksThanSubModels) {
   EXPECT_EQ(run(scene_, {.ranks = 9}, options("hybrid", 1, "greedy")).hash, alone_);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SameHash, testing::ValuesIn(cases), [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Scenes, SameHash, testing::ValuesIn(test::with_every_engine(examples, 6)),
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace moraine

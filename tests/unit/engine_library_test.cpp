@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Engines in libraries of their own: found where they should be, and deaf to each other.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <sstream>
 
 #include "physics/plugin.hpp"
+#include "tests/support/engine_scenes.hpp"
 #include "tests/support/model_run.hpp"
 #include "tests/support/shell.hpp"
 #include "tests/support/single_world.hpp"
@@ -92,6 +94,18 @@ TEST(EngineLibraries, NoSymbolOfOnePrecisionBindsToTheOther) {
   }
   EXPECT_GT(seen[32], 100);
   EXPECT_GT(seen[64], 100);
+}
+
+/// ODE's one seed in a process would join all worlds and threads; its shuffles must not reach it.
+TEST(EngineLibraries, OdeTakesItsRandomNumbersFromUs) {
+  test::SingleWorld world(find_engine("ode"), scene_of(test::pile_of(find_engine("ode"))));
+  void* ode = dlopen("libode.so.8", RTLD_NOW | RTLD_NOLOAD);
+  ASSERT_TRUE(ode);
+  const auto seed = reinterpret_cast<unsigned long (*)()>(dlsym(ode, "dRandGetSeed"));
+  const unsigned long before = seed();
+  world.steps(60);
+  EXPECT_GT(world.world().work().contacts, 12U);
+  EXPECT_EQ(seed(), before);
 }
 
 TEST(EngineLibraries, MissingOneIsNamedWithItsPath) {

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// An ODE world to bytes and back.
+#include "physics/bytes.hpp"
+#include "physics/ode/world.hpp"
+
+namespace moraine::ode {
+namespace {
+
+constexpr std::uint32_t magic = 0x444f424dU;  // "MBOD"
+constexpr std::uint32_t version = 1;
+
+}  // namespace
+
+void OdeWorld::save(std::vector<std::byte> &out) const {
+  ByteWriter w(out);
+  w.put(magic);
+  w.put(version);
+  w.put_all(bodies_.roster.members());
+  w.put(static_cast<std::uint64_t>(bodies_.roster.slots()));
+  w.put_all(std::span<const Slot>(bodies_.roster.free_slots()));
+  w.put_all(std::span<const Record>(bodies_.records));
+  w.put_all(std::span<const Bonds::Entry>(bonds_.entries()));
+}
+
+void OdeWorld::load(std::span<const std::byte> in) {
+  ByteReader r(in);
+  if (r.get<std::uint32_t>() != magic || r.get<std::uint32_t>() != version)
+    throw IoError("not a saved ode world of this version");
+  std::vector<native::Roster::Member> members;
+  r.get_all(members);
+  const auto slots = r.get<std::uint64_t>();
+  std::vector<Slot> free;
+  r.get_all(free);
+  bodies_.roster.restore(std::move(members), slots, std::move(free));
+  r.get_all(bodies_.records);
+  bodies_.ghost.clear();
+  for (const Record &record : bodies_.records) bodies_.ghost.push_back(record.ghost != 0);
+  bodies_.settle();
+  std::vector<Bonds::Entry> bonds;
+  r.get_all(bonds);
+  bonds_.clear();
+  for (const Bonds::Entry &e : bonds) bonds_.add(e);
+  touches_.clear();
+  feedback_.clear();
+  stale_ = true;
+}
+
+}  // namespace moraine::ode
