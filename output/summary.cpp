@@ -71,6 +71,12 @@ Json json_of(const Summary::Messages& m) {
           {"pairs", m.pairs}};
 }
 
+Json json_of(const std::map<int, std::array<double, 3>>& quantiles) {
+  Json all = Json::object();
+  for (const auto& [percent, values] : quantiles) all[std::to_string(percent)] = values;
+  return all;
+}
+
 Json setup_of(const Summary& s) {
   return {{"scene", s.scene},
           {"engine", s.engine},
@@ -92,6 +98,7 @@ Json results_of(const Summary& s) {
   return {{"time", s.time},
           {"wall_s", s.wall_s},
           {"loop_wall_s", s.loop_wall_s},
+          {"loop_cpu_s", s.loop_cpu_s},
           {"element_steps_per_s", s.element_steps_per_s},
           {"peak_rss_bytes", s.peak_rss_bytes},
           {"state_hash", s.state_hash},
@@ -103,6 +110,7 @@ Json results_of(const Summary& s) {
           {"boundary_force", s.boundary_force},
           {"center_of_mass", s.center_of_mass},
           {"x95", s.x95},
+          {"quantiles", json_of(s.quantiles)},
           {"overlap", {{"max", s.overlap.max}, {"mean", s.overlap.mean}}},
           {"coupling_residual", s.coupling_residual},
           {"load", json_of(s.load, s.profile)},
@@ -198,10 +206,10 @@ std::string summary_text(const Summary& s) {
   return text;
 }
 
-double x_quantile(const Frame::Bodies& bodies, double share) {
-  if (bodies.size() == 0) return 0;
+double quantile(std::span<const ElementState> bodies, int axis, double share) {
+  if (bodies.empty()) return 0;
   std::vector<double> x;
-  for (const ElementState& s : bodies.state) x.push_back(s.pose.position.x());
+  for (const ElementState& s : bodies) x.push_back(s.pose.position[axis]);
   const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(x.size())));
   const auto at = x.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(rank, 1, x.size()) - 1);
   std::nth_element(x.begin(), at, x.end());

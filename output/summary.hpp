@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct Summary {
   double time = 0;                   ///< simulated, at the end [s]
   double wall_s = 0;                 ///< with reading and writing
   double loop_wall_s = 0;            ///< the steps alone
+  double loop_cpu_s = 0;             ///< processor time of the same, sum over threads and ranks
   double element_steps_per_s = 0;    ///< elements x steps x substeps / loop_wall_s
   std::uint64_t peak_rss_bytes = 0;  ///< sum over ranks
   std::string state_hash;            ///< 16 hex digits
@@ -47,6 +49,8 @@ struct Summary {
   std::array<double, 3> boundary_force{};  ///< that boundaries exert, mean over the last fifth of the run [N]
   std::array<double, 3> center_of_mass{};
   double x95 = 0;  ///< 95 % of the elements have a smaller x [m]
+  /// So many per cent of the elements have smaller coordinates [m].
+  std::map<int, std::array<double, 3>> quantiles;
   struct Overlap {
     double max = 0, mean = 0;
   } overlap;  ///< [element diameters]
@@ -105,7 +109,8 @@ void write_summary(const Summary& summary, const std::filesystem::path& path);
 /// A few aligned lines, warnings last.
 std::string summary_text(const Summary& summary);
 
-/// The x that `share` (0 .. 1) of the bodies lie below, the nearest rank; 0 if there are none [m]. Cost: linear.
-double x_quantile(const Frame::Bodies& bodies, double share);
+/// The coordinate along `axis` (0 .. 2) that `share` (0 .. 1) of the bodies lie below, the nearest rank; 0 if there are
+/// none [m]. Cost: linear.
+double quantile(std::span<const ElementState> bodies, int axis, double share);
 
 }  // namespace moraine

@@ -112,7 +112,8 @@ Frame capture(const CoupledModel& model, runtime::Transport& transport, std::int
   return frame;
 }
 
-Summary summarise(const CoupledModel& model, runtime::Simulation& simulation, double wall_s, double loop_wall_s) {
+Summary summarise(const CoupledModel& model, runtime::Simulation& simulation, double wall_s, double loop_wall_s,
+                  double loop_cpu_s) {
   const Scene& scene = model.scene();
   const ModelStatistics statistics = model.statistics(scene.time.steps * scene.time.substeps);
   const OverlapStatistics overlaps = model.overlaps();
@@ -141,6 +142,7 @@ Summary summarise(const CoupledModel& model, runtime::Simulation& simulation, do
   s.time = static_cast<double>(scene.time.steps) * scene.time.dt;
   s.wall_s = wall_s;
   s.loop_wall_s = loop_wall_s;
+  s.loop_cpu_s = sum_over_ranks(transport, loop_cpu_s);
   const double element_steps = static_cast<double>(s.elements) * static_cast<double>(s.steps) * s.substeps;
   s.element_steps_per_s = loop_wall_s > 0 ? element_steps / loop_wall_s : 0;
   s.peak_rss_bytes = static_cast<std::uint64_t>(sum_over_ranks(transport, static_cast<double>(peak_rss_bytes())));
@@ -157,7 +159,10 @@ Summary summarise(const CoupledModel& model, runtime::Simulation& simulation, do
     const Vec3 centre = statistics.ledger.mass_moment / statistics.ledger.mass;
     s.center_of_mass = {centre.x(), centre.y(), centre.z()};
   }
-  s.x95 = x_quantile(elements, 0.95);
+  for (const int percent : {5, 50, 95})
+    for (int axis = 0; axis < 3; ++axis)
+      s.quantiles[percent][static_cast<std::size_t>(axis)] = quantile(elements.state, axis, percent / 100.0);
+  s.x95 = s.quantiles[95][0];
   s.overlap = {overlaps.max, overlaps.mean};
   s.coupling_residual = statistics.coupling_residual;
   s.load = {load.imbalance(), load.utilisation(), load.waiting_fraction(),

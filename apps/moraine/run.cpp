@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -24,6 +25,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Of all threads of this process.
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 std::filesystem::path folder_of(const Scene& scene) {
   if (!scene.output.folder.empty()) return scene.output.folder;
@@ -74,14 +82,15 @@ class Run {
   Summary go() {
     if (first_round_ == 0) write_frame(0);
     const auto loop = Clock::now();
+    const double cpu = processor_seconds();
     simulation_.run(first_round_, rounds() - first_round_);
-    const double loop_wall = since(loop);
+    const double loop_wall = since(loop), loop_cpu = processor_seconds() - cpu;
     model_.conclude(rounds());
     progress_.finish();
     print_news();
     write_frame(scene_.time.steps);
     if (writes()) writer_->finish();
-    return summarise(model_, simulation_, since(begin_), loop_wall);
+    return summarise(model_, simulation_, since(begin_), loop_wall, loop_cpu);
   }
 
  private:

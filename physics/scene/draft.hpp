@@ -62,6 +62,9 @@ void read_bonds(const Node& root, Draft& draft);
 void read_time(const Node& root, TimeSettings& time);
 void read_run(const Node& root, RunSettings& run);
 void read_output(const Node& root, OutputSettings& output);
+/// `parameters`: names that the scene declares.
+void read_study(const Node& root, std::span<const std::string> parameters, StudySettings& study);
+void read_perturbation(const Node& root, Scene& scene);
 
 /// The material an entry names; the scene's only one if it names none.
 std::uint32_t read_material(const Node& entry, const Scene& scene);

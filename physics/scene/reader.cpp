@@ -9,9 +9,9 @@
 namespace moraine {
 namespace {
 
-constexpr std::array<std::string_view, 11> top_keys = {"name",           "parameters", "gravity",    "materials",
-                                                       "material_pairs", "elements",   "boundaries", "bonds",
-                                                       "time",           "run",        "output"};
+constexpr std::array<std::string_view, 14> top_keys = {
+    "name",  "parameters",   "gravity", "materials", "material_pairs", "elements", "boundaries",
+    "bonds", "perturbation", "time",    "run",       "output",         "tradeoff", "expect"};
 
 Scene read(const std::filesystem::path& file, const std::vector<Override>& overrides) {
   const Document document(file, overrides, top_keys);
@@ -26,8 +26,10 @@ Scene read(const std::filesystem::path& file, const std::vector<Override>& overr
   read_time(root, scene.time);
   read_run(root, scene.run);
   read_output(root, scene.output);
+  read_study(root, document.expressions().names(), scene.study);
   read_materials(root, draft);
   read_elements(root, draft);
+  read_perturbation(root, scene);
   read_boundaries(root, draft);
   read_bonds(root, draft);
   return std::move(scene);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "physics/scene/settings.hpp"
+#include "physics/scene/study_settings.hpp"
 #include "physics/shape.hpp"
 #include "physics/types.hpp"
 
@@ -96,6 +97,12 @@ struct Bond {
   double break_length = 0;  ///< [m]
 };
 
+/// Random speeds that were added to the elements' own, so that runs can be told apart by a seed.
+struct Perturbation {
+  double speed = 0;  ///< standard deviation of each velocity component [m/s]
+  std::uint64_t seed = 1;
+};
+
 struct Scene {
   std::string name;
   std::string source;  ///< the file it was read from
@@ -104,10 +111,12 @@ struct Scene {
   std::vector<Shape> shapes;
   std::vector<Element> elements;  ///< ascending id
   std::vector<Boundary> boundaries;
-  std::vector<Bond> bonds;  ///< ascending (a, b)
+  std::vector<Bond> bonds;    ///< ascending (a, b)
+  Perturbation perturbation;  ///< contained in the elements' velocities
   TimeSettings time;
   RunSettings run;
   OutputSettings output;
+  StudySettings study;
   std::vector<std::string> warnings;
 
   const Shape& shape_of(const Element& e) const { return shapes[e.shape]; }

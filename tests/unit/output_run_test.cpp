@@ -159,14 +159,14 @@ TEST(Summary, TextEndsWithTheWarnings) {
 
 TEST(Summary, QuantileIsTheNearestRank) {
   Frame::Bodies bodies;
-  EXPECT_EQ(x_quantile(bodies, 0.95), 0);
+  EXPECT_EQ(quantile(bodies.state, 0, 0.95), 0);
   for (int i = 100; i > 0; --i) {
     bodies.id.push_back(static_cast<ElementId>(i));
     bodies.state.push_back({{Vec3(i, 0, 0), Quat::Identity()}, {}});
   }
-  EXPECT_EQ(x_quantile(bodies, 0.95), 95);
-  EXPECT_EQ(x_quantile(bodies, 0), 1);
-  EXPECT_EQ(x_quantile(bodies, 1), 100);
+  EXPECT_EQ(quantile(bodies.state, 0, 0.95), 95);
+  EXPECT_EQ(quantile(bodies.state, 0, 0), 1);
+  EXPECT_EQ(quantile(bodies.state, 0, 1), 100);
 }
 
 TEST(Progress, LineTellsStepTimeSpeedAndWhatIsLeft) {
