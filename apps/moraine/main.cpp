@@ -19,6 +19,8 @@
 #include "runtime/migrate/checkpoint.hpp"
 #include "runtime/run_error.hpp"
 #include "runtime/transport/mpi_session.hpp"
+#include "tradeoff.hpp"
+#include "tune.hpp"
 
 namespace {
 
@@ -120,6 +122,13 @@ struct NoChoices {
   void add_to(CLI::App&) {}
 };
 
+/// The command as it was given, without the folder of the program.
+std::string words(int argc, char** argv) {
+  std::string text = "moraine";
+  for (int i = 1; i < argc; ++i) text += std::string(" ") + argv[i];
+  return text;
+}
+
 int run_everywhere(const RunChoices& choices) {
   moraine::runtime::MpiSession session;
   return guarded(session.transport(), [&] { return moraine::app::run(choices.read(), session.transport()); });
@@ -160,7 +169,7 @@ std::function<int(const Choices&)> alone(const Function& command) {
   return [command](const Choices& choices) { return guarded([&] { return command(choices); }); };
 }
 
-void add_all(Commands& commands) {
+void add_all(Commands& commands, const std::string& words) {
   namespace app = moraine::app;
   commands.add<RunChoices>("run", "run a scene", run_everywhere);
   commands.add<InfoChoices>("info", "what would run, without running it", alone<InfoChoices>([](const InfoChoices& c) {
@@ -173,6 +182,11 @@ void add_all(Commands& commands) {
   commands.add<app::ReplayChoices>("replay",
                                    "a traced run on other ranks, cores, schedulers and balancers, without running it",
                                    alone<app::ReplayChoices>(app::replay));
+  commands.add<app::TradeoffChoices>(
+      "tradeoff", "speed against error for a grid of settings",
+      alone<app::TradeoffChoices>([words](const app::TradeoffChoices& c) { return app::tradeoff(c, words); }));
+  commands.add<app::TuneChoices>("tune", "the cheapest settings whose error is below a wish",
+                                 alone<app::TuneChoices>(app::tune));
   commands.add<RenderChoices>("render", "pictures of a run's frames", alone<RenderChoices>([](const RenderChoices& c) {
                                 return app::render(c.folder, c.width);
                               }));
@@ -185,7 +199,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", MORAINE_VERSION);
   Commands commands(app);
-  add_all(commands);
+  add_all(commands, words(argc, argv));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -47,14 +47,22 @@ std::string environment_name(std::string_view flag) {
   return name;
 }
 
+}  // namespace
+
+std::vector<Override> environment_overrides() {
+  std::vector<Override> overrides;
+  for (const Row& row : table)
+    if (const std::string name = environment_name(row.flag); const char* value = std::getenv(name.c_str()))
+      overrides.push_back({row.key, value, name});
+  return overrides;
+}
+
 Override parse_set(const std::string& text) {
   const auto at = text.find('=');
   if (at == std::string::npos || at == 0)
     throw InputError(fmt::format("--set {}: expected name=value or path.to.key=value", text));
   return {text.substr(0, at), text.substr(at + 1), "--set"};
 }
-
-}  // namespace
 
 void SceneOptions::add_to(CLI::App& command) {
   values_.resize(table.size());
@@ -64,10 +72,7 @@ void SceneOptions::add_to(CLI::App& command) {
 }
 
 Scene SceneOptions::read() const {
-  std::vector<Override> overrides;
-  for (const Row& row : table)
-    if (const std::string name = environment_name(row.flag); const char* value = std::getenv(name.c_str()))
-      overrides.push_back({row.key, value, name});
+  std::vector<Override> overrides = environment_overrides();
   for (const std::string& s : sets_) overrides.push_back(parse_set(s));
   for (std::size_t i = 0; i < table.size(); ++i)
     if (!values_[i].empty()) overrides.push_back({table[i].key, values_[i], table[i].flag});

@@ -10,6 +10,11 @@
 
 namespace moraine::app {
 
+/// What MORAINE_ variables say, one per option of the table.
+std::vector<Override> environment_overrides();
+/// `name=value`, as --set takes it. Errors: InputError.
+Override parse_set(const std::string& text);
+
 /// A scene file and what overrides it: environment first, then the command line, so that the command line wins.
 class SceneOptions {
  public:

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// moraine tradeoff and moraine tune, on two spheres that meet.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "output/file.hpp"
+#include "tests/support/shell.hpp"
+#include "tests/unit/scene_text.hpp"
+
+namespace moraine {
+namespace {
+
+using Json = nlohmann::json;
+using test::Ended;
+using test::shell;
+
+/// What is right is known: momentum stays, restitution takes the rest.
+const std::string scene = R"(
+name: meeting
+parameters: {speed: 1}
+gravity: [0, 0, 0]
+materials: {ball: {density: 1000, restitution: 0.5}}
+elements:
+  - {packing: list, shape: {sphere: 0.5}, items: [{at: [-0.6, 0, 0], velocity: [speed, 0, 0]}, {at: [0.6, 0, 0]}]}
+time: {dt: 1 / 100, duration: 0.5}
+tradeoff:
+  seeds: 3
+  grid:
+    - {engine: [bullet, impulse], substeps: [1, 4], sub_models: 1}
+expect:
+  com_x: speed / 2 * 0.5
+  kinetic_energy: {value: 1000 * pi / 6 * (0.25 + 0.0625) * speed^2, scale: 1000 * pi / 12 * speed^2}
+)";
+
+class Study : public testing::Test {
+ protected:
+  Ended command(const std::string& name, const std::string& options = "") const {
+    return shell("moraine " + name + " " + file_.string() + " --out " + out() + " --jobs 2 " + options);
+  }
+  void rewrite(const std::string& text) { file_ = folder_.write("scene.yaml", text); }
+  std::string out() const { return (file_.parent_path() / "out").string(); }
+  Json read(const std::string& name) const { return Json::parse(read_file(std::filesystem::path(out()) / name)); }
+  std::vector<std::filesystem::path> records() const {
+    std::vector<std::filesystem::path> all;
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(out()) / "runs"))
+      all.push_back(entry.path());
+    return all;
+  }
+
+  Folder folder_;
+  std::filesystem::path file_ = folder_.write("scene.yaml", scene);
+};
+
+bool says(const Ended& ended, const std::string& part) { return ended.text.find(part) != std::string::npos; }
+
+std::string changed(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST_F(Study, MeasuresEverySetting) {
+  const Ended ended = command("tradeoff");
+  ASSERT_EQ(ended.status, 0) << ended.text;
+  const Json all = read("settings.json");
+  ASSERT_EQ(all.at("rows").size(), 4U);
+  EXPECT_FALSE(all.contains("reference")) << "all that counts is expected";
+  EXPECT_FALSE(all.at("front").empty());
+  EXPECT_EQ(all.at("runs_at_once"), 2);
+  for (const Json& row : all.at("rows")) {
+    EXPECT_EQ(row.at("seeds"), 3);
+    EXPECT_GT(row.at("speed"), 0);
+    EXPECT_LT(row.at("error").at("high"), 0.05) << row;
+    EXPECT_GT(row.at("error").at("high"), 0) << "seeds differ";
+  }
+  const std::string csv = read_file(std::filesystem::path(out()) / "settings.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
+  EXPECT_NE(read_file(std::filesystem::path(out()) / "plot.svg").find("</svg>"), std::string::npos);
+}
+
+TEST_F(Study, ItsCommandsRunWhatItMeasured) {
+  ASSERT_EQ(command("tradeoff").status, 0);
+  const Json all = read("settings.json");
+  const Json& row = all.at("rows").at(all.at("front").at(0).get<std::size_t>());
+  const std::string line = row.at("command").get<std::string>() + " --quiet --out " + out() + "/again";
+  ASSERT_EQ(shell(line).status, 0) << line;
+  const Json again = read("again/summary.json");
+  EXPECT_EQ(again.at("substeps"), row.at("substeps"));
+  EXPECT_NEAR(again.at("kinetic_energy"), row.at("observables").at("kinetic_energy").at("mean"), 5);
+}
+
+TEST_F(Study, GoesOnWhereItStopped) {
+  ASSERT_EQ(command("tradeoff").status, 0);
+  ASSERT_EQ(records().size(), 12U);
+  std::filesystem::remove(records().front());
+  const Ended ended = command("tradeoff");
+  EXPECT_TRUE(says(ended, "11 of 12 runs are there already")) << ended.text;
+  EXPECT_TRUE(says(ended, "   1 of 1  ")) << ended.text;
+  EXPECT_EQ(records().size(), 12U);
+}
+
+TEST_F(Study, NoticesAChangedScene) {
+  ASSERT_EQ(command("tradeoff").status, 0);
+  rewrite(changed(scene, "density: 1000,", "density: 1200,"));
+  const Ended ended = command("tradeoff");
+  EXPECT_TRUE(says(ended, "12 finished runs are of another version of the scene")) << ended.text;
+  EXPECT_TRUE(says(ended, "12 of 12  ")) << ended.text;
+}
+
+TEST_F(Study, IsNarrowedByTheCommandLine) {
+  ASSERT_EQ(command("tradeoff", "--engine impulse --iterations 1,3 --seeds 2 --observables com_x").status, 0);
+  const Json all = read("settings.json");
+  EXPECT_EQ(all.at("rows").size(), 4U);
+  for (const Json& row : all.at("rows")) {
+    EXPECT_EQ(row.at("engine"), "impulse");
+    EXPECT_EQ(row.at("seeds"), 2);
+    EXPECT_EQ(row.at("error").at("worst"), "com_x");
+  }
+}
+
+TEST_F(Study, AllSettingsEndAtTheSameTime) {
+  ASSERT_EQ(command("tradeoff", "--dt 0.003 --engine impulse --seeds 1").status, 0);
+  const Json all = read("settings.json");
+  for (const Json& row : all.at("rows"))
+    EXPECT_NEAR(row.at("dt").get<double>() * row.at("steps").get<double>(), 0.5, 1e-9);
+}
+
+TEST_F(Study, FailedRunsAreRowsWithAReason) {
+  rewrite(changed(scene, "sub_models: 1}", "sub_models: 1}\n    - {engine: impulse, run.max_speed: 0.1}"));
+  const Ended ended = command("tradeoff");
+  ASSERT_EQ(ended.status, 0) << ended.text;
+  const Json row = read("settings.json").at("rows").at(4);
+  EXPECT_EQ(row.at("status"), 3);
+  EXPECT_NE(row.at("reason").get<std::string>().find("element 0"), std::string::npos) << row;
+  EXPECT_TRUE(says(ended, "failed: ")) << ended.text;
+}
+
+TEST_F(Study, ComparesWithAReference) {
+  rewrite(scene.substr(0, scene.find("expect:")));
+  const Ended ended = command("tradeoff", "--engine impulse --observables com_x,kinetic_energy");
+  ASSERT_EQ(ended.status, 0) << ended.text;
+  const Json all = read("settings.json");
+  EXPECT_EQ(all.at("reference").at("engine"), "soft_sphere");
+  EXPECT_GT(all.at("noise"), 0);
+  EXPECT_TRUE(all.at("best").at(2).contains("times_reference"));
+}
+
+TEST_F(Study, PeersAreCompared) {
+  const Ended ended = command("tradeoff", "--seeds 2 --peer 'other=0.5,com_x=0.3'");
+  ASSERT_EQ(ended.status, 0) << ended.text;
+  const Json peer = read("settings.json").at("peers").at(0);
+  EXPECT_EQ(peer.at("speed"), 0.5);
+  EXPECT_NEAR(peer.at("error"), 0.05, 1e-9) << "of a diameter";
+}
+
+TEST_F(Study, RefusesWhatItCannotUnderstand) {
+  const auto refuses = [&](const Ended& ended, const std::string& part) {
+    EXPECT_EQ(ended.status, 2) << ended.text;
+    EXPECT_TRUE(says(ended, part)) << ended.text;
+  };
+  refuses(command("tradeoff", "--observables speed_of_light"), "unknown observable 'speed_of_light'");
+  refuses(command("tradeoff", "--peer fast"), "NAME=SPEED");
+  refuses(command("tradeoff", "--vary friction"), "key=value");
+  refuses(command("tradeoff", "--engine steam"), "unknown engine 'steam'");
+  refuses(command("tradeoff", "--clock sun"), "--clock");
+  refuses(command("tune"), "--error");
+  refuses(command("tune", "--error much"), "per cent");
+  refuses(command("tune", "--error 200%"), "between 0 and 1");
+  rewrite(changed(scene, "seeds: 3", "sedes: 3"));
+  refuses(command("tradeoff"), "scene.yaml:10:3: unknown key 'sedes'");
+  rewrite(changed(scene, "substeps: [1, 4]", "subteps: [1, 4]"));
+  refuses(command("tradeoff"), "scene.yaml:12:");
+  rewrite(changed(scene, "com_x: speed", "com_q: speed"));
+  refuses(command("tradeoff"), "scene.yaml:14:10: unknown observable 'com_q'");
+}
+
+TEST_F(Study, TuneFindsSettingsThatHoldWhatTheyPromise) {
+  const Ended ended = command("tune", "--error 5%");
+  ASSERT_EQ(ended.status, 0) << ended.text;
+  EXPECT_TRUE(says(ended, "```yaml")) << ended.text;
+  const Json found = read("tune.json");
+  EXPECT_LE(found.at("found").at("error").at("high"), 0.05);
+  EXPECT_GE(found.at("found").at("seeds"), 5);
+  ASSERT_EQ(shell(found.at("run").get<std::string>() + " --quiet --out " + out() + "/again").status, 0);
+  const double mass = 1000 * 3.14159265 / 6;
+  EXPECT_NEAR(read("again/summary.json").at("kinetic_energy"), mass * 0.3125, 0.05 * mass / 2);
+}
+
+TEST_F(Study, TuneRefusesWhenNothingIsGoodEnough) {
+  const Ended bad = command("tune", "--error 2% --set materials.ball.restitution=0.9");
+  EXPECT_EQ(bad.status, 5) << bad.text;
+  EXPECT_TRUE(says(bad, "No setting in reach")) << bad.text;
+  EXPECT_EQ(read("tune.json").at("good_enough"), false);
+}
+
+TEST_F(Study, TuneDoesNotClaimWhatSeedsHide) {
+  const Ended ended = command("tune", "--error 0.001% --most-seeds 6");
+  EXPECT_EQ(ended.status, 5) << ended.text;
+  EXPECT_TRUE(says(ended, "seeds of it would decide") || says(ended, "surely too bad")) << ended.text;
+}
+
+}  // namespace
+}  // namespace moraine
