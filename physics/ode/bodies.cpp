@@ -6,22 +6,22 @@
 namespace moraine::ode {
 namespace {
 
-std::array<double, 3> numbers(const Vec3 &v) { return {v.x(), v.y(), v.z()}; }
+std::array<double, 3> numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-void copy(const dReal *from, std::array<double, 3> &to) { std::copy(from, from + 3, to.begin()); }
+void copy(const dReal* from, std::array<double, 3>& to) { std::copy(from, from + 3, to.begin()); }
 
 }  // namespace
 
 Bodies::~Bodies() {
-  for (Handle &h : handles_) {
+  for (Handle& h : handles_) {
     h.parts.clear();
     dBodyDestroy(h.body);
   }
 }
 
-Slot Bodies::add(const Body &body) {
+Slot Bodies::add(const Body& body) {
   const Slot slot = roster.add(body.id);
-  Record &r = records.emplace_back();
+  Record& r = records.emplace_back();
   r.mass = body.mass / units_.mass;
   r.shape = body.shape;
   r.material = body.material;
@@ -31,9 +31,9 @@ Slot Bodies::add(const Body &body) {
   return slot;
 }
 
-void Bodies::set_state(Place p, const ElementState &state) {
-  Record &r = records[p];
-  const Quat &q = state.pose.orientation;
+void Bodies::set_state(Place p, const ElementState& state) {
+  Record& r = records[p];
+  const Quat& q = state.pose.orientation;
   r.position = numbers(units_.position(state.pose.position));
   r.orientation = {q.w(), q.x(), q.y(), q.z()};
   r.velocity = numbers(state.twist.linear / units_.velocity());
@@ -41,7 +41,7 @@ void Bodies::set_state(Place p, const ElementState &state) {
 }
 
 Quat Bodies::orientation(Place p) const {
-  const auto &q = records[p].orientation;
+  const auto& q = records[p].orientation;
   return Quat(q[0], q[1], q[2], q[3]);
 }
 
@@ -49,8 +49,8 @@ Twist Bodies::twist(Place p) const {
   return {units_.velocity() * vec(records[p].velocity.data()), vec(records[p].spin.data()) / units_.time};
 }
 
-void Bodies::push(Place p, const Impulse &impulse) {
-  Record &r = records[p];
+void Bodies::push(Place p, const Impulse& impulse) {
+  Record& r = records[p];
   const Quat q = orientation(p);
   const Vec3 turn = q.conjugate() * Vec3(impulse.angular / (units_.momentum() * units_.length));
   r.velocity = numbers(vec(r.velocity.data()) + impulse.linear / (units_.momentum() * r.mass));
@@ -71,8 +71,8 @@ void Bodies::settle() {
 }
 
 void Bodies::fit(Place p) {
-  Handle &h = handles_[p];
-  const Record &r = records[p];
+  Handle& h = handles_[p];
+  const Record& r = records[p];
   if (h.shape == r.shape && h.mass == r.mass) return;
   if (h.shape != r.shape) {
     h.parts = make_parts(shape(p).geometry, 1 / units_.length, h.body);
@@ -89,7 +89,7 @@ void Bodies::fit(Place p) {
 void Bodies::upload() {
   for (Place p = 0; p < size(); ++p) {
     fit(p);
-    const Record &r = records[p];
+    const Record& r = records[p];
     const dBodyID b = handles_[p].body;
     dBodySetPosition(b, r.position[0], r.position[1], r.position[2]);
     dBodySetQuaternion(b, r.orientation.data());
@@ -100,7 +100,7 @@ void Bodies::upload() {
 
 void Bodies::download() {
   for (Place p = 0; p < size(); ++p) {
-    Record &r = records[p];
+    Record& r = records[p];
     const dBodyID b = handles_[p].body;
     copy(dBodyGetPosition(b), r.position);
     copy(dBodyGetLinearVel(b), r.velocity);

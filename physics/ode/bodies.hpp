@@ -28,21 +28,21 @@ struct Record {
 
 class Bodies {
  public:
-  Bodies(dWorldID world, const Scene &scene, const Units &units) : world_(world), scene_(scene), units_(units) {}
-  Bodies(const Bodies &) = delete;
-  Bodies &operator=(const Bodies &) = delete;
+  Bodies(dWorldID world, const Scene& scene, const Units& units) : world_(world), scene_(scene), units_(units) {}
+  Bodies(const Bodies&) = delete;
+  Bodies& operator=(const Bodies&) = delete;
   ~Bodies();
 
   std::size_t size() const { return roster.size(); }
   Place place(Slot slot) const { return roster.place(slot); }
-  const Shape &shape(Place p) const { return scene_.shapes[records[p].shape]; }
+  const Shape& shape(Place p) const { return scene_.shapes[records[p].shape]; }
 
-  Slot add(const Body &body);
-  void set_state(Place p, const ElementState &state);
+  Slot add(const Body& body);
+  void set_state(Place p, const ElementState& state);
   ElementState state(Place p) const { return {{position(p), orientation(p)}, twist(p)}; }
   Vec3 position(Place p) const { return units_.world(vec(records[p].position.data())); }
   Twist twist(Place p) const;
-  void push(Place p, const Impulse &impulse);
+  void push(Place p, const Impulse& impulse);
   native::Ball ball(Place p) const { return {position(p), shape(p).bounding_radius}; }
 
   /// Puts all in id order, with an ODE body for each; see roster.moved().
@@ -53,7 +53,7 @@ class Bodies {
   void download();
 
   dBodyID body(Place p) const { return handles_[p].body; }
-  const std::vector<Geom> &parts(Place p) const { return handles_[p].parts; }
+  const std::vector<Geom>& parts(Place p) const { return handles_[p].parts; }
 
   native::Roster roster;
   std::vector<Record> records;
@@ -71,8 +71,8 @@ class Bodies {
   void fit(Place p);
 
   dWorldID world_;
-  const Scene &scene_;
-  const Units &units_;
+  const Scene& scene_;
+  const Units& units_;
   std::vector<Handle> handles_;  ///< by place; ODE goes through bodies in the
                                  ///< order they were made
 };

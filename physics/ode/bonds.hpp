@@ -15,24 +15,24 @@ class Bonds {
     Slot a = 0, b = 0;
   };
 
-  explicit Bonds(const Scene &scene) : scene_(scene) {}
+  explicit Bonds(const Scene& scene) : scene_(scene) {}
 
-  void add(const Entry &entry);
+  void add(const Entry& entry);
   void remove(std::uint32_t bond);
   void clear() { entries_.clear(); }
-  const std::vector<Entry> &entries() const { return entries_; }
+  const std::vector<Entry>& entries() const { return entries_; }
 
   /// Drops the bonds that are longer at the start of a step than they may be.
-  void break_long(const Bodies &bodies);
+  void break_long(const Bodies& bodies);
   std::span<const std::uint32_t> broken() const { return broken_; }
 
   /// Makes a joint for each: ODE's distance joint, softened so that it is the
   /// bond's spring and dashpot, integrated implicitly (ODE manual, "How to use
   /// ERP and CFM").
-  void make_joints(const Bodies &bodies, const Units &units, double h, dWorldID world, dJointGroupID group) const;
+  void make_joints(const Bodies& bodies, const Units& units, double h, dWorldID world, dJointGroupID group) const;
 
  private:
-  const Scene &scene_;
+  const Scene& scene_;
   std::vector<Entry> entries_;  ///< ascending bond
   std::vector<std::uint32_t> broken_;
 };

@@ -20,7 +20,7 @@ using Geom = std::unique_ptr<dxGeom, FreeGeom>;
 
 /// The parts of an element's shape, fixed to its body; one unless it is a
 /// compound. `scale` is 1 / length unit.
-std::vector<Geom> make_parts(const Geometry &geometry, double scale, dBodyID body);
+std::vector<Geom> make_parts(const Geometry& geometry, double scale, dBodyID body);
 
 /// Triangles of one boundary, with the numbers that ODE keeps pointing to.
 class Mesh {
@@ -39,9 +39,9 @@ class Mesh {
 };
 
 /// A piece of a boundary other than a triangle, in the boundary's frame.
-Geom make_piece(const native::Surface &surface, double scale);
+Geom make_piece(const native::Surface& surface, double scale);
 /// Places a piece of a boundary whose frame is at `pose` (scaled, local).
-void place_piece(dGeomID geom, const native::Surface &surface, double scale, const Pose &pose);
-void place(dGeomID geom, const Pose &pose);
+void place_piece(dGeomID geom, const native::Surface& surface, double scale, const Pose& pose);
+void place(dGeomID geom, const Pose& pose);
 
 }  // namespace moraine::ode

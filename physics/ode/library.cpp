@@ -26,7 +26,7 @@ extern "C" int dRandInt(int n) {
 namespace moraine::ode {
 namespace {
 
-[[noreturn]] void fail(int, const char *text, va_list arguments) {
+[[noreturn]] void fail(int, const char* text, va_list arguments) {
   char message[256];
   std::vsnprintf(message, sizeof message, text, arguments);
   throw InvalidStateError("engine ode: " + std::string(message));
@@ -45,8 +45,8 @@ void start() {
 }  // namespace
 }  // namespace moraine::ode
 
-extern "C" std::unique_ptr<moraine::World> moraine_make_world(const moraine::WorldSettings &settings,
-                                                              const moraine::Vec3 &origin) {
+extern "C" std::unique_ptr<moraine::World> moraine_make_world(const moraine::WorldSettings& settings,
+                                                              const moraine::Vec3& origin) {
   static const bool started = (moraine::ode::start(), true);
   static_cast<void>(started);
   return std::make_unique<moraine::ode::OdeWorld>(settings, origin);

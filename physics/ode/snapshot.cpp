@@ -11,7 +11,7 @@ constexpr std::uint32_t version = 1;
 
 }  // namespace
 
-void OdeWorld::save(std::vector<std::byte> &out) const {
+void OdeWorld::save(std::vector<std::byte>& out) const {
   ByteWriter w(out);
   w.put(magic);
   w.put(version);
@@ -34,12 +34,12 @@ void OdeWorld::load(std::span<const std::byte> in) {
   bodies_.roster.restore(std::move(members), slots, std::move(free));
   r.get_all(bodies_.records);
   bodies_.ghost.clear();
-  for (const Record &record : bodies_.records) bodies_.ghost.push_back(record.ghost != 0);
+  for (const Record& record : bodies_.records) bodies_.ghost.push_back(record.ghost != 0);
   bodies_.settle();
   std::vector<Bonds::Entry> bonds;
   r.get_all(bonds);
   bonds_.clear();
-  for (const Bonds::Entry &e : bonds) bonds_.add(e);
+  for (const Bonds::Entry& e : bonds) bonds_.add(e);
   touches_.clear();
   feedback_.clear();
   stale_ = true;

@@ -14,7 +14,7 @@ std::mutex mesh_workspace;
 
 }  // namespace
 
-void collide(dGeomID a, dGeomID b, Touch touch, std::vector<Touch> &out) {
+void collide(dGeomID a, dGeomID b, Touch touch, std::vector<Touch>& out) {
   std::array<dContactGeom, most_points> points;
   const int count = dCollide(a, b, most_points, points.data(), sizeof(dContactGeom));
   for (int k = 0; k < count; ++k) {
@@ -23,24 +23,24 @@ void collide(dGeomID a, dGeomID b, Touch touch, std::vector<Touch> &out) {
   }
 }
 
-WallTouches::WallTouches(const Scene &scene, const Units &units)
+WallTouches::WallTouches(const Scene& scene, const Units& units)
     : scene_(scene), units_(units), walls_(scene), solids_(scene.boundaries.size()) {
   for (std::size_t w = 0; w < solids_.size(); ++w) {
-    Solid &s = solids_[w];
+    Solid& s = solids_[w];
     s.surfaces = native::surfaces(scene.boundaries[w], scene, Pose{});
     if (!s.surfaces.empty() && std::holds_alternative<native::Triangle>(s.surfaces[0]))
       s.mesh = std::make_unique<Mesh>(s.surfaces, 1 / units.length);
     else
-      for (const native::Surface &surface : s.surfaces) s.pieces.push_back(make_piece(surface, 1 / units.length));
+      for (const native::Surface& surface : s.surfaces) s.pieces.push_back(make_piece(surface, 1 / units.length));
     place_solid(w, 0);
   }
 }
 
 void WallTouches::place_solid(std::size_t wall, double t) {
-  const Boundary &b = scene_.boundaries[wall];
+  const Boundary& b = scene_.boundaries[wall];
   Pose pose = b.motion.pose(b.pose, t);
   pose.position = units_.position(pose.position);
-  const Solid &s = solids_[wall];
+  const Solid& s = solids_[wall];
   if (s.mesh) place(s.mesh->geom(), pose);
   for (std::size_t k = 0; k < s.pieces.size(); ++k)
     place_piece(s.pieces[k].get(), s.surfaces[k], 1 / units_.length, pose);
@@ -52,9 +52,9 @@ void WallTouches::move(double t) {
     if (walls_[w].moves()) place_solid(w, t);
 }
 
-void WallTouches::find(const Bodies &bodies, std::vector<Touch> &out) {
+void WallTouches::find(const Bodies& bodies, std::vector<Touch>& out) {
   for (std::size_t begin = 0, end = 0; begin < candidates_.size(); begin = end) {
-    const native::WallCandidate &first = candidates_[begin];
+    const native::WallCandidate& first = candidates_[begin];
     while (end < candidates_.size() && candidates_[end].ball == first.ball && candidates_[end].wall == first.wall)
       ++end;
     const Group group = Group(candidates_).subspan(begin, end - begin);
@@ -65,10 +65,10 @@ void WallTouches::find(const Bodies &bodies, std::vector<Touch> &out) {
   }
 }
 
-void WallTouches::meet_ball(const Bodies &bodies, Group group, std::vector<Touch> &out) {
+void WallTouches::meet_ball(const Bodies& bodies, Group group, std::vector<Touch>& out) {
   const native::Ball ball = bodies.ball(group.front().ball);
   native::find_touches(walls_[group.front().wall], ball, group, nearest_);
-  for (const native::Nearest &n : nearest_) {
+  for (const native::Nearest& n : nearest_) {
     Touch touch{group.front().ball, group.front().wall, true, {}};
     const Vec3 point = units_.position(n.point);
     for (int k = 0; k < 3; ++k) {
@@ -80,15 +80,15 @@ void WallTouches::meet_ball(const Bodies &bodies, Group group, std::vector<Touch
   }
 }
 
-void WallTouches::meet_parts(const Bodies &bodies, Group group, std::vector<Touch> &out) {
+void WallTouches::meet_parts(const Bodies& bodies, Group group, std::vector<Touch>& out) {
   const Touch touch{group.front().ball, group.front().wall, true, {}};
-  const Solid &solid = solids_[touch.b];
-  for (const Geom &part : bodies.parts(touch.a)) {
+  const Solid& solid = solids_[touch.b];
+  for (const Geom& part : bodies.parts(touch.a)) {
     if (solid.mesh) {
       const std::lock_guard turn(mesh_workspace);
       collide(part.get(), solid.mesh->geom(), touch, out);
     }
-    for (const Geom &piece : solid.pieces) collide(part.get(), piece.get(), touch, out);
+    for (const Geom& piece : solid.pieces) collide(part.get(), piece.get(), touch, out);
   }
 }
 

@@ -21,18 +21,18 @@ struct Touch {
 
 class WallTouches {
  public:
-  WallTouches(const Scene &scene, const Units &units);
+  WallTouches(const Scene& scene, const Units& units);
 
-  native::Walls &walls() { return walls_; }
-  const native::Walls &walls() const { return walls_; }
-  void list(const native::SizedGrid &grid, std::span<const native::Ball> balls, std::span<const std::uint8_t> passive,
+  native::Walls& walls() { return walls_; }
+  const native::Walls& walls() const { return walls_; }
+  void list(const native::SizedGrid& grid, std::span<const native::Ball> balls, std::span<const std::uint8_t> passive,
             double skin) {
     walls_.find(grid, balls, passive, skin, candidates_);
   }
   /// Boundaries stand where they are at time t [s].
   void move(double t);
   /// Appends all touches, ascending by body and boundary.
-  void find(const Bodies &bodies, std::vector<Touch> &out);
+  void find(const Bodies& bodies, std::vector<Touch>& out);
 
  private:
   using Group = std::span<const native::WallCandidate>;
@@ -44,11 +44,11 @@ class WallTouches {
     std::unique_ptr<Mesh> mesh;
   };
   void place_solid(std::size_t wall, double t);
-  void meet_ball(const Bodies &bodies, Group group, std::vector<Touch> &out);
-  void meet_parts(const Bodies &bodies, Group group, std::vector<Touch> &out);
+  void meet_ball(const Bodies& bodies, Group group, std::vector<Touch>& out);
+  void meet_parts(const Bodies& bodies, Group group, std::vector<Touch>& out);
 
-  const Scene &scene_;
-  const Units &units_;
+  const Scene& scene_;
+  const Units& units_;
   native::Walls walls_;
   std::vector<Solid> solids_;
   std::vector<native::WallCandidate> candidates_;
@@ -56,6 +56,6 @@ class WallTouches {
 };
 
 /// Appends where two geometries touch.
-void collide(dGeomID a, dGeomID b, Touch touch, std::vector<Touch> &out);
+void collide(dGeomID a, dGeomID b, Touch touch, std::vector<Touch>& out);
 
 }  // namespace moraine::ode

@@ -16,7 +16,7 @@ constexpr double restitution_threshold = 0.2 / 3.1321;  // as engine bullet: slo
 
 }  // namespace
 
-Dynamics::Dynamics(const WorldSettings &settings, const Units &units)
+Dynamics::Dynamics(const WorldSettings& settings, const Units& units)
     : world_(dWorldCreate()),
       joints_(dJointGroupCreate(0)),
       threading_(dThreadingAllocateSelfThreadedImplementation()) {
@@ -34,7 +34,7 @@ Dynamics::~Dynamics() {
   dThreadingFreeImplementation(threading_);
 }
 
-OdeWorld::OdeWorld(const WorldSettings &settings, const Vec3 &origin)
+OdeWorld::OdeWorld(const WorldSettings& settings, const Vec3& origin)
     : settings_(settings),
       units_(settings, origin),
       h_(settings.substep / settings.time_unit),
@@ -43,7 +43,7 @@ OdeWorld::OdeWorld(const WorldSettings &settings, const Vec3 &origin)
       walls_(*settings.scene, units_),
       bonds_(*settings.scene) {}
 
-Slot OdeWorld::add(const Body &body) {
+Slot OdeWorld::add(const Body& body) {
   const std::size_t count = bodies_.roster.count() + walls_.walls().size() + 1;
   if (count > settings_.limits.elements)
     throw InputError(
@@ -54,7 +54,7 @@ Slot OdeWorld::add(const Body &body) {
   return bodies_.add(body);
 }
 
-void OdeWorld::motions(std::span<const Slot> slots, std::vector<BodyMotion> &out) const {
+void OdeWorld::motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const {
   out.resize(slots.size());
   for (std::size_t i = 0; i < slots.size(); ++i) {
     const Place p = bodies_.place(slots[i]);
@@ -107,16 +107,16 @@ void OdeWorld::find_touches() {
   touches_.clear();
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const Place a = pairs_.lower()[k], b = pairs_.higher()[k];
-    for (const Geom &part : bodies_.parts(a))
-      for (const Geom &other : bodies_.parts(b)) collide(part.get(), other.get(), {a, b, false, {}}, touches_);
+    for (const Geom& part : bodies_.parts(a))
+      for (const Geom& other : bodies_.parts(b)) collide(part.get(), other.get(), {a, b, false, {}}, touches_);
   }
   walls_.find(bodies_, touches_);
 }
 
-dSurfaceParameters OdeWorld::surface(const Touch &touch) const {
+dSurfaceParameters OdeWorld::surface(const Touch& touch) const {
   const std::uint32_t other =
       touch.with_boundary ? settings_.scene->boundaries[touch.b].material : bodies_.records[touch.b].material;
-  const PairLaw &law = settings_.scene->materials.pair(bodies_.records[touch.a].material, other);
+  const PairLaw& law = settings_.scene->materials.pair(bodies_.records[touch.a].material, other);
   dSurfaceParameters s{};
   s.mode = dContactApprox1 | dContactSoftERP | dContactFDir1;
   s.mu = law.friction;
@@ -131,7 +131,7 @@ dSurfaceParameters OdeWorld::surface(const Touch &touch) const {
 
 /// Friction acts along two directions that follow from the normal alone, each
 /// limited by the normal force: a pyramid.
-void OdeWorld::make_contact(const Touch &touch, dJointFeedback &feedback) {
+void OdeWorld::make_contact(const Touch& touch, dJointFeedback& feedback) {
   dContact c{};
   c.surface = surface(touch);
   c.geom = touch.at;
@@ -151,15 +151,18 @@ void OdeWorld::make_contact(const Touch &touch, dJointFeedback &feedback) {
 
 void OdeWorld::sum_boundary_impulse() {
   boundary_impulse_ = {};
+  boundary_work_ = 0;
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     if (!touches_[i].with_boundary) continue;
     const Vec3 given = units_.momentum() * h_ * vec(feedback_[i].f1);
-    boundary_impulse_ += {given, units_.world(vec(touches_[i].at.pos)).cross(given)};
+    const Vec3 point = units_.world(vec(touches_[i].at.pos));
+    boundary_impulse_ += {given, point.cross(given)};
+    boundary_work_ += given.dot(walls_.walls()[touches_[i].b].velocity(point));
   }
 }
 
 Contact OdeWorld::contact(std::size_t i) const {
-  const Touch &t = touches_[i];
+  const Touch& t = touches_[i];
   return {bodies_.roster.id(t.a),
           t.with_boundary ? t.b : bodies_.roster.id(t.b),
           t.with_boundary,
@@ -173,7 +176,7 @@ std::vector<Contact> OdeWorld::contacts() const {
   std::vector<Contact> out;
   if (bodies_.roster.unsettled()) return out;
   for (std::size_t i = 0; i < touches_.size(); ++i) out.push_back(contact(i));
-  std::stable_sort(out.begin(), out.end(), [](const Contact &p, const Contact &q) {
+  std::stable_sort(out.begin(), out.end(), [](const Contact& p, const Contact& q) {
     return std::tuple(p.a, p.with_boundary, p.b) < std::tuple(q.a, q.with_boundary, q.b);
   });
   return out;

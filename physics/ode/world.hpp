@@ -16,9 +16,9 @@ namespace moraine::ode {
 /// threading in which there is one thread.
 class Dynamics {
  public:
-  Dynamics(const WorldSettings &settings, const Units &units);
-  Dynamics(const Dynamics &) = delete;
-  Dynamics &operator=(const Dynamics &) = delete;
+  Dynamics(const WorldSettings& settings, const Units& units);
+  Dynamics(const Dynamics&) = delete;
+  Dynamics& operator=(const Dynamics&) = delete;
   ~Dynamics();
 
   dWorldID world() const { return world_; }
@@ -35,16 +35,16 @@ class Dynamics {
 /// states at its start.
 class OdeWorld final : public World {
  public:
-  OdeWorld(const WorldSettings &settings, const Vec3 &origin);
+  OdeWorld(const WorldSettings& settings, const Vec3& origin);
 
-  Slot add(const Body &body) override;
+  Slot add(const Body& body) override;
   void remove(Slot slot) override { bodies_.roster.remove(slot); }
-  void set_state(Slot slot, const ElementState &state) override { bodies_.set_state(bodies_.place(slot), state); }
+  void set_state(Slot slot, const ElementState& state) override { bodies_.set_state(bodies_.place(slot), state); }
   ElementState state(Slot slot) const override { return bodies_.state(bodies_.place(slot)); }
   Vec3 position(Slot slot) const override { return bodies_.position(bodies_.place(slot)); }
-  void motions(std::span<const Slot> slots, std::vector<BodyMotion> &out) const override;
+  void motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const override;
   void set_mass(Slot slot, double mass) override { bodies_.records[bodies_.place(slot)].mass = mass / units_.mass; }
-  void apply_impulse(Slot slot, const Impulse &impulse) override { bodies_.push(bodies_.place(slot), impulse); }
+  void apply_impulse(Slot slot, const Impulse& impulse) override { bodies_.push(bodies_.place(slot), impulse); }
 
   void add_bond(std::uint32_t bond, Slot a, Slot b) override { bonds_.add({bond, a, b}); }
   void remove_bond(std::uint32_t bond) override { bonds_.remove(bond); }
@@ -53,11 +53,12 @@ class OdeWorld final : public World {
   void step(double t) override;
 
   Impulse boundary_impulse() const override { return boundary_impulse_; }
+  double boundary_work() const override { return boundary_work_; }
   std::vector<Contact> contacts() const override;
   StepWork work() const override { return {bodies_.roster.count(), touches_.size(), bonds_.entries().size()}; }
 
   void canonicalise() override { settle(); }
-  void save(std::vector<std::byte> &out) const override;
+  void save(std::vector<std::byte>& out) const override;
   void load(std::span<const std::byte> in) override;
 
  private:
@@ -65,8 +66,8 @@ class OdeWorld final : public World {
   bool moved_too_far() const;
   void list_anew();
   void find_touches();
-  void make_contact(const Touch &touch, dJointFeedback &feedback);
-  dSurfaceParameters surface(const Touch &touch) const;
+  void make_contact(const Touch& touch, dJointFeedback& feedback);
+  dSurfaceParameters surface(const Touch& touch) const;
   void sum_boundary_impulse();
   Contact contact(std::size_t touch) const;
 
@@ -81,6 +82,7 @@ class OdeWorld final : public World {
   std::vector<Touch> touches_;            ///< of the last step
   std::vector<dJointFeedback> feedback_;  ///< what each of them did
   Impulse boundary_impulse_;
+  double boundary_work_ = 0;
 
   native::SizedGrid grid_;
   native::VerletList pairs_;

@@ -137,12 +137,11 @@ TEST_P(BondedBeam, HangsAsItsBondsSay) {
   EXPECT_LT(run.model().statistics().linear_residual, 1e-5);
 }
 
-const std::vector<Way> ways = {{"bullet", 1}, {"bullet", 2}, {"bullet", 3}, {"bullet", 7}, {"impulse", 1},
-                               {"impulse", 3}, {"impulse", 7}};
+const std::vector<Way> ways = {{"bullet", 1},  {"bullet", 2},  {"bullet", 3}, {"bullet", 7},
+                               {"impulse", 1}, {"impulse", 3}, {"impulse", 7}};
 
-INSTANTIATE_TEST_SUITE_P(Ways, BondedBeam, testing::ValuesIn(ways), [](const auto& test) {
-  return fmt::format("{}_in_{}", test.param.engine, test.param.parts);
-});
+INSTANTIATE_TEST_SUITE_P(Ways, BondedBeam, testing::ValuesIn(ways),
+                         [](const auto& test) { return fmt::format("{}_in_{}", test.param.engine, test.param.parts); });
 
 }  // namespace
 }  // namespace moraine
