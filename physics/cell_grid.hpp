@@ -13,6 +13,7 @@
 namespace moraine {
 
 /// Counting-sort cell list over a box. Points keep their index order inside a cell. Buffers are reused between builds.
+/// Points that are not finite do no harm: they are put into some cell.
 /// Point: anything with operator[](0..2). Cost: linear in points and cells; cells are at most 2 per point.
 template <class Real>
 class CellGrid {
@@ -55,6 +56,7 @@ class CellGrid {
     high.fill(std::numeric_limits<Real>::lowest());
     for (const Point& p : points)
       for (int a = 0; a < 3; ++a) {
+        if (!std::isfinite(p[a])) continue;
         low_[a] = std::min(low_[a], p[a]);
         high[a] = std::max(high[a], p[a]);
       }
@@ -78,7 +80,7 @@ class CellGrid {
 
   int along(Real x, int axis, int shift) const {
     const double c = std::floor(static_cast<double>((x - low_[axis]) * inverse_)) + shift;
-    return static_cast<int>(std::clamp(c, 0.0, static_cast<double>(size_[axis] - 1)));
+    return c > 0 ? static_cast<int>(std::min(c, static_cast<double>(size_[axis] - 1))) : 0;
   }
   Cell clamped(const Point& p, int shift) const {
     return {along(p[0], 0, shift), along(p[1], 1, shift), along(p[2], 2, shift)};
