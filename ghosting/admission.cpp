@@ -10,21 +10,16 @@
 #include "physics/errors.hpp"
 
 namespace moraine {
+namespace {
 
-Limits find_limits(std::string_view profile) {
-  if (profile == "default") return {};
-  // PhysX as Longshaw et al. (2009) used it: 64 scenes, 64,000 shapes, 256,000 contact pairs per scene. A packed sphere
-  // takes part in 12 pairs, hence 21,333 of them. A tenth is kept free for ghosts, several times what a compact cut of
-  // that size needs.
-  if (profile == "physx") return {64'000, 256'000, 64, 0.1};
-  throw InputError(fmt::format("unknown engine profile '{}', expected one of: default, physx", profile));
-}
-
-void check_shapes(const Scene& scene, const Engine& engine) {
+void check_abilities(const Scene& scene, const Engine& engine) {
   for (const Element& e : scene.elements)
     if (!engine.supports(scene.shapes[e.shape].geometry))
       throw InputError(
           fmt::format("{}: element {} has a shape that engine {} cannot do", scene.source, e.id, engine.name));
+  if (!engine.bonds && !scene.bonds.empty())
+    throw InputError(
+        fmt::format("{}: engine {} has no bonds, the scene has {}", scene.source, engine.name, scene.bonds.size()));
 }
 
 void check_step(const Scene& scene, const Engine& engine) {
@@ -35,6 +30,23 @@ void check_step(const Scene& scene, const Engine& engine) {
                   "a smaller time.dt or at least {:.0f} substeps",
                   scene.source, scene.time.substep(), engine.name, limit.substep, limit.reason,
                   std::ceil(scene.time.dt / limit.substep)));
+}
+
+}  // namespace
+
+Limits find_limits(std::string_view profile) {
+  if (profile == "default") return {};
+  // PhysX as Longshaw et al. (2009) used it: 64 scenes, 64,000 shapes, 256,000 contact pairs per scene. A packed sphere
+  // takes part in 12 pairs, hence 21,333 of them. A tenth is kept free for ghosts, several times what a compact cut of
+  // that size needs.
+  if (profile == "physx") return {64'000, 256'000, 64, 0.1};
+  throw InputError(fmt::format("unknown engine profile '{}', expected one of: default, physx", profile));
+}
+
+void check_engine(const Scene& scene, const Engine& engine) {
+  check_abilities(scene, engine);
+  check_step(scene, engine);
+  engine.check(scene);
 }
 
 std::size_t part_count(const Scene& scene, const Engine& engine, const Limits& limits) {

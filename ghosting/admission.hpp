@@ -10,9 +10,8 @@ namespace moraine {
 
 /// Limits by profile name ("default", "physx"). Errors: InputError.
 Limits find_limits(std::string_view profile);
-/// Errors: InputError naming what the engine cannot do, the limit and the value.
-void check_shapes(const Scene& scene, const Engine& engine);
-void check_step(const Scene& scene, const Engine& engine);
+/// Errors: InputError for what the engine cannot do: shapes, bonds, a substep above its limit, or as it says itself.
+void check_engine(const Scene& scene, const Engine& engine);
 /// How many sub-models the scene is cut into. Errors: InputError if the limits do not allow it.
 std::size_t part_count(const Scene& scene, const Engine& engine, const Limits& limits);
 /// Nothing in the scene can get this fast: ten times the speed of falling through the whole scene, added to what moves

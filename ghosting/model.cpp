@@ -52,6 +52,9 @@ Features features_of(const Scene& scene) {
   f.bonds = !scene.bonds.empty();
   f.spheres_only = std::all_of(scene.elements.begin(), scene.elements.end(),
                                [&](const Element& e) { return scene.shape_of(e).sphere(); });
+  f.rotation = f.friction || !f.spheres_only ||
+               std::any_of(scene.elements.begin(), scene.elements.end(),
+                           [](const Element& e) { return !e.state.twist.angular.isZero(0); });
   return f;
 }
 
@@ -73,7 +76,7 @@ WorldSettings world_settings(const Scene& scene) {
 
 CoupledModel::CoupledModel(const Scene& scene, runtime::Transport& transport) : transport_(transport) {
   context_.scene = &scene;
-  context_.engine = &find_engine(scene.run.engine);
+  context_.engine = &find_engine(scene.run.engine, scene);
   coupling_row_ = &find_coupling(scene.run.coupling, *context_.engine);
   coupling_ = coupling_row_->make();
   context_.coupling = coupling_.get();
@@ -86,9 +89,7 @@ CoupledModel::CoupledModel(const Scene& scene, runtime::Transport& transport) : 
   for (const Shape& s : scene.shapes) context_.inner_radius.push_back(inner_radius(s.geometry));
   context_.advised = context_.engine->advised_step(scene);
   context_.speed_limit = std::min(runaway_speed(scene), follower_speed(context_));
-  check_shapes(scene, *context_.engine);
-  check_step(scene, *context_.engine);
-  context_.engine->check(scene);
+  check_engine(scene, *context_.engine);
   parts_ = part_count(scene, *context_.engine, context_.world.limits);
   split_ = &find_split(scene.run.split, scene, parts_);
   std::vector<ElementState> states;

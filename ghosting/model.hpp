@@ -42,6 +42,7 @@ class CoupledModel : public runtime::Model {
   void adopt(runtime::SubModelId id, std::span<const std::byte> saved) override;
 
   const Scene& scene() const { return *context_.scene; }
+  const Engine& engine() const { return *context_.engine; }
   const SplitRow& split() const { return *split_; }
   const CouplingRow& coupling() const { return *coupling_row_; }
   bool holds(std::size_t i) const { return sub_models_[i] != nullptr; }

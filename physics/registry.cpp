@@ -2,6 +2,7 @@
 // The table of engines.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -23,9 +24,17 @@ std::span<const Engine> engines() {
 const Engine& find_engine(std::string_view name) {
   for (const Engine& e : engines())
     if (e.name == name) return e;
-  std::string known;
+  std::string known = "\n  auto         impulse for scenes of spheres, bullet otherwise";
   for (const Engine& e : engines()) known += fmt::format("\n  {:<12} {}", e.name, e.help);
   throw InputError(fmt::format("unknown engine '{}', expected one of:{}", name, known));
+}
+
+const Engine& find_engine(std::string_view name, const Scene& scene) {
+  if (name != "auto") return find_engine(name);
+  const Engine& fastest = find_engine("impulse");
+  const bool fits = std::all_of(scene.elements.begin(), scene.elements.end(),
+                                [&](const Element& e) { return fastest.supports(scene.shape_of(e).geometry); });
+  return fits ? fastest : find_engine("bullet");
 }
 
 }  // namespace moraine

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "physics/scene/scene.hpp"
@@ -22,6 +23,7 @@ enum class Role : std::uint8_t { real, ghost };
 /// What a scene uses; an engine leaves the rest out.
 struct Features {
   bool friction = true;
+  bool rotation = true;  ///< something turns or may begin to
   bool restitution = true;
   bool bonds = true;
   bool spheres_only = false;
@@ -80,6 +82,10 @@ struct Contact {
   double overlap = 0;           ///< [m], negative: gap
   Vec3 impulse = Vec3::Zero();  ///< on a, over the last step [N s]
 };
+/// The order in which worlds list them.
+inline bool earlier(const Contact& p, const Contact& q) {
+  return std::tuple(p.a, p.with_boundary, p.b) < std::tuple(q.a, q.with_boundary, q.b);
+}
 
 /// What a contact remembers beyond the states of its bodies. It goes along when elements change worlds.
 struct ContactMemory {
@@ -109,18 +115,20 @@ class World {
   virtual void remove(Slot slot) = 0;
   virtual void set_state(Slot slot, const ElementState& state) = 0;
   virtual ElementState state(Slot slot) const = 0;
-  virtual Vec3 position(Slot slot) const = 0;
+  // Parts of it, asked for in every step: worth an answer that is quicker than the whole state.
+  virtual Vec3 position(Slot slot) const { return state(slot).pose.position; }
   /// Motions of many bodies at once, in the order asked for.
-  virtual void motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const = 0;
+  virtual void motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const;
   /// Changes the copy's share of the element's mass; inertia follows in proportion.
   virtual void set_mass(Slot slot, double mass) = 0;
   virtual void apply_impulse(Slot slot, const Impulse& impulse) = 0;
 
   /// Adds scene bond `bond` between two bodies of this world; dropped again with remove_bond or when it breaks.
-  virtual void add_bond(std::uint32_t bond, Slot a, Slot b) = 0;
-  virtual void remove_bond(std::uint32_t bond) = 0;
+  /// Not called if the engine's row says that it has none.
+  virtual void add_bond(std::uint32_t bond, Slot a, Slot b);
+  virtual void remove_bond(std::uint32_t) {}
   /// Scene bonds that broke during the last step, ascending.
-  virtual std::span<const std::uint32_t> broken_bonds() const = 0;
+  virtual std::span<const std::uint32_t> broken_bonds() const { return {}; }
 
   /// Advances by one substep from time t [s]: boundaries move as prescribed, forces act, bodies move.
   virtual void step(double t) = 0;
@@ -173,6 +181,7 @@ struct Engine {
   double (*relative_cost)(double bodies);
   std::unique_ptr<World> (*make)(const WorldSettings&, const Vec3& origin);
   GhostKind ghosts = GhostKind::partner;
+  bool bonds = true;  ///< it can do them; scenes with bonds are refused otherwise
   /// When in a substep forces act, 0 .. 1: 0 at its start (semi-implicit Euler), 0.5 in the middle (Verlet).
   double force_time = 0;
   /// What else it cannot run. Errors: InputError naming the limit and the value.
@@ -185,5 +194,7 @@ struct Engine {
 std::span<const Engine> engines();
 /// Errors: InputError that prints the table.
 const Engine& find_engine(std::string_view name);
+/// The same for a scene; `auto` is impulse for scenes of spheres, which it is made for, and bullet otherwise.
+const Engine& find_engine(std::string_view name, const Scene& scene);
 
 }  // namespace moraine

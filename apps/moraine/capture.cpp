@@ -126,8 +126,8 @@ Summary summarise(const CoupledModel& model, runtime::Simulation& simulation, do
 
   Summary s;
   s.scene = scene.name;
-  s.engine = scene.run.engine;
-  s.precision = find_engine(scene.run.engine).precision;
+  s.engine = model.engine().name;
+  s.precision = model.engine().precision;
   s.coupling = model.coupling().name;
   s.split = model.split().name;
   s.scheduler = scene.run.scheduler;

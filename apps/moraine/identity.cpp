@@ -6,6 +6,7 @@
 
 #include "output/scene_table.hpp"
 #include "physics/bytes.hpp"
+#include "physics/world.hpp"
 
 namespace moraine::app {
 namespace {
@@ -52,7 +53,7 @@ void put(ByteWriter& w, const PairLaw& law) {
 }
 
 void put(ByteWriter& w, const RunSettings& r) {
-  for (const std::string* text : {&r.engine, &r.engine_profile, &r.split, &r.coupling}) put(w, *text);
+  for (const std::string* text : {&r.engine_profile, &r.split, &r.coupling}) put(w, *text);
   for (const double x : {r.coupling_leak, r.skin, r.recut_ghost_share, r.overlap_recovery, r.max_speed}) w.put(x);
   w.put(r.sub_models);
   w.put(r.iterations);
@@ -78,6 +79,7 @@ std::string identity(const Scene& scene) {
   put_each(w, scene.materials.pairs);
   w.put(scene.time.dt);
   w.put(scene.time.substeps);
+  put(w, std::string(find_engine(scene.run.engine, scene).name));
   put(w, scene.run);
   return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
 }

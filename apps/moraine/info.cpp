@@ -24,6 +24,7 @@ std::string features_text(const Scene& scene) {
     to += (to.empty() ? "" : ", ") + std::string(name);
   };
   note("friction", f.friction);
+  note("rotation", f.rotation);
   note("restitution", f.restitution);
   note("bonds", f.bonds);
   note("shapes other than spheres", !f.spheres_only);
@@ -46,8 +47,7 @@ std::string barrier_text(std::size_t parts, int threads) {
                      100 * static_cast<double>(parts) / (rounds * threads));
 }
 
-std::string time_limit_text(const Scene& scene) {
-  const Engine& engine = find_engine(scene.run.engine);
+std::string time_limit_text(const Scene& scene, const Engine& engine) {
   const StepLimit limit = engine.step_limit(scene), advice = engine.advised_step(scene);
   std::string text = "none";
   if (!limit.reason.empty()) text = fmt::format("{:.4g} s per substep, set by {}", limit.substep, limit.reason);
@@ -87,7 +87,8 @@ int info(const Scene& scene, int ranks) {
   line("bonds", grouped(scene.bonds.size()));
   line("boundaries", grouped(scene.boundaries.size()));
   line("features", features_text(scene));
-  line("engine", fmt::format("{}: {}", scene.run.engine, find_engine(scene.run.engine).help));
+  line("engine",
+       fmt::format("{}{}: {}", model.engine().name, scene.run.engine == "auto" ? " (auto)" : "", model.engine().help));
   line("engine limits", limits_text(scene));
   line("sub-models", fmt::format("{} by {}, {} to {} elements each{}", model.size(), model.split().name, smallest,
                                  largest, scene.run.sub_models == 0 ? " (auto)" : ""));
@@ -97,7 +98,7 @@ int info(const Scene& scene, int ranks) {
                                    model.coupling().name, 100 * expected_ghost_share(double(largest))));
   line("time", fmt::format("{} steps of {:.6g} s in {} substep(s), {} iterations each", scene.time.steps, scene.time.dt,
                            scene.time.substeps, scene.run.iterations));
-  line("time limit", time_limit_text(scene));
+  line("time limit", time_limit_text(scene, model.engine()));
   line("scheduling", fmt::format("{}; {}", scene.run.scheduler, barrier_text(model.size(), threads)));
   line("", ownership_text(model.size(), ranks, threads));
   line("memory", fmt::format("about {:.0f} MB for the worlds", 8e-3 * double(scene.elements.size())));

@@ -25,7 +25,7 @@ constexpr std::array table{
     Row{"--dt", "time.dt", "one step [s]"},
     Row{"--substeps", "time.substeps", "engine steps per step; sub-models are coupled after each"},
     Row{"--threads", "run.threads", "worker threads of each rank (default: its share of the cores it may use)"},
-    Row{"--engine", "run.engine", "engine, see 'moraine list'"},
+    Row{"--engine", "run.engine", "engine, see 'moraine list', or auto: impulse for spheres, else bullet"},
     Row{"--sub-models", "run.sub_models", "number of sub-models, or auto"},
     Row{"--split", "run.split", "how the scene is cut, see 'moraine list'"},
     Row{"--coupling", "run.coupling", "how sub-models are coupled, see 'moraine list'"},

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <tuple>
 
 #include "physics/errors.hpp"
 
@@ -191,9 +190,7 @@ std::vector<Contact> ImpulseWorld::contacts() const {
   for (const PairRow& row : pairs_.rows()) out.push_back(contact(row));
   for (const WallRow& row : walls_.rows()) out.push_back(contact(row));
   std::erase_if(out, [](const Contact& c) { return c.overlap <= 0 && c.impulse.isZero(0); });
-  std::stable_sort(out.begin(), out.end(), [](const Contact& p, const Contact& q) {
-    return std::tuple(p.a, p.with_boundary, p.b) < std::tuple(q.a, q.with_boundary, q.b);
-  });
+  std::stable_sort(out.begin(), out.end(), earlier);
   return out;
 }
 

@@ -58,4 +58,19 @@ void Roster::restore(std::vector<Member> members, std::size_t slots, std::vector
   for (Place p = 0; p < size(); ++p) places_[members_[p].slot] = p;
 }
 
+void Roster::save(ByteWriter& w) const {
+  w.put_all(members());
+  w.put(static_cast<std::uint64_t>(slots()));
+  w.put_all(std::span<const Slot>(free_));
+}
+
+void Roster::load(ByteReader& r) {
+  std::vector<Member> members;
+  r.get_all(members);
+  const auto slots = r.get<std::uint64_t>();
+  std::vector<Slot> free;
+  r.get_all(free);
+  restore(std::move(members), slots, std::move(free));
+}
+
 }  // namespace moraine::native

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "physics/bytes.hpp"
 #include "physics/world.hpp"
 
 namespace moraine::native {
@@ -45,6 +46,8 @@ class Roster {
   std::size_t slots() const { return places_.size(); }
   const std::vector<Slot>& free_slots() const { return free_; }
   void restore(std::vector<Member> members, std::size_t slots, std::vector<Slot> free);
+  void save(ByteWriter& w) const;
+  void load(ByteReader& r);
 
  private:
   std::vector<Member> members_;

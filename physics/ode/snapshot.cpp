@@ -15,9 +15,7 @@ void OdeWorld::save(std::vector<std::byte>& out) const {
   ByteWriter w(out);
   w.put(magic);
   w.put(version);
-  w.put_all(bodies_.roster.members());
-  w.put(static_cast<std::uint64_t>(bodies_.roster.slots()));
-  w.put_all(std::span<const Slot>(bodies_.roster.free_slots()));
+  bodies_.roster.save(w);
   w.put_all(std::span<const Record>(bodies_.records));
   w.put_all(std::span<const Bonds::Entry>(bonds_.entries()));
 }
@@ -26,12 +24,7 @@ void OdeWorld::load(std::span<const std::byte> in) {
   ByteReader r(in);
   if (r.get<std::uint32_t>() != magic || r.get<std::uint32_t>() != version)
     throw IoError("not a saved ode world of this version");
-  std::vector<native::Roster::Member> members;
-  r.get_all(members);
-  const auto slots = r.get<std::uint64_t>();
-  std::vector<Slot> free;
-  r.get_all(free);
-  bodies_.roster.restore(std::move(members), slots, std::move(free));
+  bodies_.roster.load(r);
   r.get_all(bodies_.records);
   bodies_.ghost.clear();
   for (const Record& record : bodies_.records) bodies_.ghost.push_back(record.ghost != 0);

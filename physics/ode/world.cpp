@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <tuple>
 
 #include "physics/errors.hpp"
 
@@ -176,9 +175,7 @@ std::vector<Contact> OdeWorld::contacts() const {
   std::vector<Contact> out;
   if (bodies_.roster.unsettled()) return out;
   for (std::size_t i = 0; i < touches_.size(); ++i) out.push_back(contact(i));
-  std::stable_sort(out.begin(), out.end(), [](const Contact& p, const Contact& q) {
-    return std::tuple(p.a, p.with_boundary, p.b) < std::tuple(q.a, q.with_boundary, q.b);
-  });
+  std::stable_sort(out.begin(), out.end(), earlier);
   return out;
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <tuple>
 
 #include "physics/errors.hpp"
 
@@ -147,8 +146,9 @@ void SoftSphereWorld::kick_and_drift() {
     Moving& m = bodies_.moving[p];
     const Load& load = bodies_.load[p];
     m.velocity += fall + (h * m.inverse_mass) * load.force;
-    m.spin += (h * bodies_.inverse_inertia(p)) * load.torque;
     bodies_.position[p] = bodies_.ball[p].centre + (h / 2) * m.velocity;
+    if (!settings_.features.rotation) continue;
+    m.spin += (h * bodies_.inverse_inertia(p)) * load.torque;
     rotate(bodies_.orientation[p], h * m.spin);
   }
 }
@@ -165,9 +165,7 @@ std::vector<Contact> SoftSphereWorld::contacts() const {
   for (const LastingWallContact& c : walls_.lasting())
     out.push_back(
         {bodies_.entries[c.ball].id, c.wall, true, c.point, c.normal, c.overlap, h * walls_.push_of(bodies_, c).force});
-  std::stable_sort(out.begin(), out.end(), [](const Contact& p, const Contact& q) {
-    return std::tuple(p.a, p.with_boundary, p.b) < std::tuple(q.a, q.with_boundary, q.b);
-  });
+  std::stable_sort(out.begin(), out.end(), earlier);
   return out;
 }
 

@@ -69,11 +69,14 @@ boundaries:
   - {plane: {point: [x + 3.4 * s, y, 0], normal: [-1, 0, 0]}}
   - {plane: {point: [x, y + 3.4 * s, 0], normal: [0, -1, 0]}}
   - {box: [[x - s, y - s, 0], [x + 5 * s, y + 5 * s, 9 * s]], triangulated: true, open_top: true}
+time: {dt: 0.005 * sqrt(s), steps: 1}
+)" +
+         (engine.bonds ? R"(
 bonds:
   - {a: 100, b: 101, stiffness: 1e5 * s^2, damping: 100 * s^2.5, break_length: 1.2}
   - {a: 104, b: 113, stiffness: 1e5 * s^2}
-time: {dt: 0.005 * sqrt(s), steps: 1}
-)";
+)"
+                       : "");
 }
 
 }  // namespace moraine::test

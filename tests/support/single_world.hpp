@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,13 +18,16 @@ namespace moraine::test {
 class SingleWorld {
  public:
   /// `order`: in which the elements (by index) and then the bonds between them are added; empty: as in the scene.
-  SingleWorld(const Engine& engine, Scene scene, std::vector<std::uint32_t> order = {}, Limits limits = {})
+  /// `features`: what the engine is told that the scene uses; empty: what it does use.
+  SingleWorld(const Engine& engine, Scene scene, std::vector<std::uint32_t> order = {}, Limits limits = {},
+              std::optional<Features> features = {})
       : scene_(std::move(scene)),
         settings_(world_settings(scene_)),
         substeps_(static_cast<int>(std::ceil(scene_.time.dt / (0.5 * engine.step_limit(scene_).substep)))) {
     substeps_ = std::max(substeps_, scene_.time.substeps);
     settings_.substep = scene_.time.dt / substeps_;
     settings_.limits = limits;
+    settings_.features = features.value_or(settings_.features);
     Bounds box;
     for (const Element& e : scene_.elements) box.add(e.state.pose.position);
     world_ = engine.make(settings_, box.empty() ? Vec3::Zero() : box.min);

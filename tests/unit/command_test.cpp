@@ -80,8 +80,19 @@ TEST_F(Command, ListNamesEveryTable) {
 TEST_F(Command, InfoSaysWhatWouldRunAndWritesNothing) {
   const Ended ended = shell("cd " + root_.string() + "; moraine info " + write(good));
   EXPECT_EQ(ended.status, 0) << ended.text;
-  EXPECT_NE(ended.text.find("restitution; left out: friction"), std::string::npos) << ended.text;
+  EXPECT_NE(ended.text.find("restitution; left out: friction, rotation, bonds, shapes other than spheres"),
+            std::string::npos)
+      << ended.text;
   EXPECT_FALSE(std::filesystem::exists(root_ / "out"));
+}
+
+TEST_F(Command, AutoTakesTheEngineThatTheShapesNeed) {
+  EXPECT_EQ(run(good, "--engine auto").status, 0);
+  EXPECT_EQ(summary().at("engine"), "impulse");
+  EXPECT_EQ(run(replaced(good, "shape: {sphere: 0.5}", "shape: {box: [1, 1, 1]}"), "--engine auto").status, 0);
+  EXPECT_EQ(summary().at("engine"), "bullet");
+  const Ended info = shell("moraine info " + write(good) + " --engine auto");
+  EXPECT_NE(info.text.find("impulse (auto)"), std::string::npos) << info.text;
 }
 
 TEST_F(Command, RefusesWrongScenes) {
