@@ -46,7 +46,7 @@ double share_of(const Choice& choice) {
 
 /// Substeps of a share of the engine's largest.
 int substeps_within(const Scene& scene, const Choice& choice) {
-  const StepLimit limit = find_engine(scene.run.engine).step_limit(scene);
+  const StepLimit limit = find_engine(scene.run.engine, scene).step_limit(scene);
   if (!std::isfinite(limit.substep))
     throw InputError(fmt::format("{}: engine {} has no largest substep for this scene, expected substeps instead of {}",
                                  choice.place, scene.run.engine, limit_share));
@@ -54,8 +54,9 @@ int substeps_within(const Scene& scene, const Choice& choice) {
 }
 
 void describe(const Scene& scene, Setting& s) {
-  s.engine = scene.run.engine;
-  s.precision = find_engine(s.engine).precision;
+  const Engine& engine = find_engine(scene.run.engine, scene);
+  s.engine = engine.name;
+  s.precision = engine.precision;
   s.coupling = scene.run.coupling;
   s.split = scene.run.split;
   s.sub_models = scene.run.sub_models;

@@ -65,7 +65,9 @@ TEST_P(MassRatio, HeavyOnLight) {
   expect_no_silent_gain(o);
   if (!o.ran()) return;
   EXPECT_GT(o.position(0).z(), 0);
-  if (ratio <= 1e3 || o.warnings.empty()) EXPECT_LT(o.overlaps.max, 0.05);
+  if (ratio <= 1e3 || o.warnings.empty()) {
+    EXPECT_LT(o.overlaps.max, 0.05);
+  }
 }
 
 TEST_P(MassRatio, LightOnHeavy) {
@@ -148,7 +150,9 @@ TEST_P(StiffBond, NeverGainsEnergy) {
   }
   EXPECT_LT(e.kinetic + e.bond, 1.125 * (1 + std::min(0.5, hw) / 2 + 0.01));
   EXPECT_NEAR((o.velocity(0) + o.velocity(1)).y(), 0.5, 1e-4) << "momentum";
-  if (hw > 1) EXPECT_TRUE(o.warned("substep: ")) << "numerical damping";
+  if (hw > 1) {
+    EXPECT_TRUE(o.warned("substep: ")) << "numerical damping";
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, StiffBond,

@@ -39,10 +39,18 @@ TEST_P(Step, TooLongIsNeverSilent) {
     EXPECT_GT(factor, 1);
     EXPECT_TRUE(o.says("the limit is")) << o.text;
   }
-  if (o.ran() && factor <= 1) EXPECT_TRUE(o.warnings.empty()) << o.warnings.front();
-  if (o.ran() && factor <= 1) EXPECT_LT(o.overlaps.max, 0.05);
-  if (o.ran() && factor > 2) EXPECT_FALSE(o.warnings.empty());
-  if (o.ran()) EXPECT_TRUE(all_inside(o));
+  if (o.ran() && factor <= 1) {
+    EXPECT_TRUE(o.warnings.empty()) << o.warnings.front();
+  }
+  if (o.ran() && factor <= 1) {
+    EXPECT_LT(o.overlaps.max, 0.05);
+  }
+  if (o.ran() && factor > 2) {
+    EXPECT_FALSE(o.warnings.empty());
+  }
+  if (o.ran()) {
+    EXPECT_TRUE(all_inside(o));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Step, testing::Combine(testing::ValuesIn(all_engines), testing::ValuesIn(factors)),
@@ -83,8 +91,12 @@ TEST_P(Bullets, NeverPassSilently) {
                  : o.text.substr(o.text.find(": ") + 2));
   if (!o.ran()) return;
   EXPECT_LT(o.statistics.energy.kinetic, 0.505 * speed * speed);
-  if (!bounced) EXPECT_TRUE(o.warned("tunnelling: "));
-  if (ratio <= 0.1) EXPECT_TRUE(bounced);
+  if (!bounced) {
+    EXPECT_TRUE(o.warned("tunnelling: "));
+  }
+  if (ratio <= 0.1) {
+    EXPECT_TRUE(bounced);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Bullets,

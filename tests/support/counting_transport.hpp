@@ -49,7 +49,10 @@ class CountingTransport final : public Transport {
     collectives_ += counting_;
     return inner_.exchange(std::move(to));
   }
-  [[noreturn]] void abort(int status) override { inner_.abort(status); }
+  [[noreturn]] void abort(int status) override {
+    inner_.abort(status);
+    std::terminate();  // not reached
+  }
   int ranks_on_these_cores() override { return inner_.ranks_on_these_cores(); }
 
  private:

@@ -34,6 +34,7 @@ class SpringWorld final : public World {
     canonicalise();
     contacts_.clear();
     given_ = {};
+    work_ = 0;
     const std::vector<Body> start = bodies_;
     meet_walls(start, t);
     meet_each_other(start);
@@ -48,6 +49,7 @@ class SpringWorld final : public World {
   }
 
   Impulse boundary_impulse() const override { return given_; }
+  double boundary_work() const override { return work_; }
   std::vector<Contact> contacts() const override { return contacts_; }
   StepWork work() const override { return {roster_.count(), contacts_.size(), 0}; }
 
@@ -99,6 +101,7 @@ class SpringWorld final : public World {
         const double overlap = balls_[p].radius - n.distance;
         touch({start[p].id, wall, true, n.point, n.normal, overlap, {}}, p, opening, start[p].mass);
         given_ += {contacts_.back().impulse, n.point.cross(contacts_.back().impulse)};
+        work_ += contacts_.back().impulse.dot(walls_[wall].velocity(n.point));
       }
     }
   }
@@ -129,6 +132,7 @@ class SpringWorld final : public World {
   std::vector<native::Nearest> nearest_;
   std::vector<Contact> contacts_;
   Impulse given_;
+  double work_ = 0;
 };
 
 /// Its row. In the largest substep twelve critical dashpots at once are stable.
