@@ -32,8 +32,11 @@ namespace {
   throw InvalidStateError("engine ode: " + std::string(message));
 }
 
+/// In the program and what it links to. RTLD_DEFAULT would look in this library and what it links to as well.
+bool program_links_to_ode() { return dlsym(dlopen(nullptr, RTLD_LAZY), "dWorldQuickStep") != nullptr; }
+
 void start() {
-  if (dlsym(RTLD_DEFAULT, "dWorldQuickStep"))
+  if (program_links_to_ode())
     throw IoError(
         "engine ode: this program must not link to ODE: its random "
         "numbers would join all worlds");
