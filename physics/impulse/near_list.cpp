@@ -12,7 +12,8 @@ constexpr float cells_per_reach[3] = {4, 1, 1};
 
 int cell_along(const CellTable& t, int axis, float x) {
   const float c = (x - t.low[axis]) * t.inverse[axis];
-  return c > 0 ? std::min(static_cast<int>(c), t.size[axis] - 1) : 0;
+  const int last = t.size[axis] - 1;
+  return c > 0 ? (c < static_cast<float>(last) ? static_cast<int>(c) : last) : 0;
 }
 
 /// Cells of this size in a box; their number can be too large for an integer.
@@ -110,11 +111,14 @@ void NearList::SizeClass::follow(std::span<const Place> moved) {
 }
 
 void NearList::SizeClass::measure(std::span<const Vec> position, float skin) {
-  Vec low = position[members[0]], high = low;
+  const Vec far = Vec::Constant(std::numeric_limits<float>::max());
+  Vec low = far, high = -far;
   for (const std::uint32_t i : members) {
+    if (!position[i].allFinite()) continue;
     low = low.cwiseMin(position[i]);
     high = high.cwiseMax(position[i]);
   }
+  if (high.w() < 0) low = high = Vec::Zero();  // none of them is anywhere
   table.largest = high.w();
   float size[3];
   for (int axis = 0; axis < 3; ++axis) size[axis] = (2 * table.largest + skin) / cells_per_reach[axis];

@@ -2,11 +2,19 @@
 #include "physics/ode/bodies.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace moraine::ode {
 namespace {
 
 std::array<double, 3> numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+bool finite(const Record& r) {
+  const auto all = [](const auto& a) {
+    return std::all_of(a.begin(), a.end(), [](double x) { return std::isfinite(x); });
+  };
+  return all(r.position) && all(r.velocity) && all(r.spin) && all(r.orientation);
+}
 
 void copy(const dReal* from, std::array<double, 3>& to) { std::copy(from, from + 3, to.begin()); }
 
@@ -87,10 +95,17 @@ void Bodies::fit(Place p) {
 }
 
 void Bodies::upload() {
+  sound_.resize(size());
   for (Place p = 0; p < size(); ++p) {
-    fit(p);
     const Record& r = records[p];
     const dBodyID b = handles_[p].body;
+    sound_[p] = finite(r);
+    if (!sound(p)) {
+      dBodyDisable(b);
+      continue;
+    }
+    fit(p);
+    dBodyEnable(b);
     dBodySetPosition(b, r.position[0], r.position[1], r.position[2]);
     dBodySetQuaternion(b, r.orientation.data());
     dBodySetLinearVel(b, r.velocity[0], r.velocity[1], r.velocity[2]);
@@ -100,6 +115,7 @@ void Bodies::upload() {
 
 void Bodies::download() {
   for (Place p = 0; p < size(); ++p) {
+    if (!sound(p)) continue;
     Record& r = records[p];
     const dBodyID b = handles_[p].body;
     copy(dBodyGetPosition(b), r.position);

@@ -48,9 +48,11 @@ class Bodies {
   /// Puts all in id order, with an ODE body for each; see roster.moved().
   void settle();
   /// Tells ODE's bodies what is in the records. After that ODE has nothing from
-  /// steps before.
+  /// steps before. Those that are not sound sit the step out.
   void upload();
   void download();
+  /// All its numbers are finite; ODE gives up on a world with others.
+  bool sound(Place p) const { return sound_[p] != 0; }
 
   dBodyID body(Place p) const { return handles_[p].body; }
   const std::vector<Geom>& parts(Place p) const { return handles_[p].parts; }
@@ -73,8 +75,9 @@ class Bodies {
   dWorldID world_;
   const Scene& scene_;
   const Units& units_;
-  std::vector<Handle> handles_;  ///< by place; ODE goes through bodies in the
-                                 ///< order they were made
+  std::vector<Handle> handles_;      ///< by place; ODE goes through bodies in the
+                                     ///< order they were made
+  std::vector<std::uint8_t> sound_;  ///< by place, since upload()
 };
 
 }  // namespace moraine::ode

@@ -31,7 +31,9 @@ void Bonds::make_joints(const Bodies& bodies, const Units& units, double h, dWor
     const double stiffness = bond.stiffness * units.time * units.time / units.mass;
     const double damping = bond.damping * units.time / units.mass;
     if (stiffness == 0 && damping == 0) continue;
-    const dBodyID a = bodies.body(bodies.place(e.a)), b = bodies.body(bodies.place(e.b));
+    const Place p = bodies.place(e.a), q = bodies.place(e.b);
+    if (!bodies.sound(p) || !bodies.sound(q)) continue;
+    const dBodyID a = bodies.body(p), b = bodies.body(q);
     const dJointID joint = dJointCreateDBall(world, group);
     dJointAttach(joint, a, b);
     const dReal *at_a = dBodyGetPosition(a), *at_b = dBodyGetPosition(b);

@@ -57,6 +57,7 @@ void WallTouches::find(const Bodies& bodies, std::vector<Touch>& out) {
     const native::WallCandidate& first = candidates_[begin];
     while (end < candidates_.size() && candidates_[end].ball == first.ball && candidates_[end].wall == first.wall)
       ++end;
+    if (!bodies.sound(first.ball)) continue;
     const Group group = Group(candidates_).subspan(begin, end - begin);
     if (bodies.shape(first.ball).sphere())
       meet_ball(bodies, group, out);

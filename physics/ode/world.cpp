@@ -27,7 +27,16 @@ Dynamics::Dynamics(const WorldSettings& settings, const Units& units)
   dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_), threading_);
 }
 
+void Dynamics::step(double h) {
+  stepping_ = true;
+  dWorldQuickStep(world_, h);
+  dJointGroupEmpty(joints_);
+  stepping_ = false;
+}
+
+/// ODE cannot tidy up what a step left that ended with an error.
 Dynamics::~Dynamics() {
+  if (stepping_) return;
   dJointGroupDestroy(joints_);
   dWorldDestroy(world_);
   dThreadingFreeImplementation(threading_);
@@ -71,8 +80,7 @@ void OdeWorld::step(double t) {
   bonds_.make_joints(bodies_, units_, h_, dynamics_.world(), dynamics_.joints());
   feedback_.assign(touches_.size(), {});
   for (std::size_t i = 0; i < touches_.size(); ++i) make_contact(touches_[i], feedback_[i]);
-  dWorldQuickStep(dynamics_.world(), h_);
-  dJointGroupEmpty(dynamics_.joints());
+  dynamics_.step(h_);
   sum_boundary_impulse();
   bodies_.download();
 }
@@ -106,6 +114,7 @@ void OdeWorld::find_touches() {
   touches_.clear();
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const Place a = pairs_.lower()[k], b = pairs_.higher()[k];
+    if (!bodies_.sound(a) || !bodies_.sound(b)) continue;
     for (const Geom& part : bodies_.parts(a))
       for (const Geom& other : bodies_.parts(b)) collide(part.get(), other.get(), {a, b, false, {}}, touches_);
   }

@@ -23,11 +23,14 @@ class Dynamics {
 
   dWorldID world() const { return world_; }
   dJointGroupID joints() const { return joints_; }
+  /// With the joints there are, which end with it.
+  void step(double h);
 
  private:
   dWorldID world_;
   dJointGroupID joints_;
   dThreadingImplementationID threading_;
+  bool stepping_ = false;
 };
 
 /// ODE remembers nothing from step to step: bodies are told their states and
