@@ -12,6 +12,7 @@ void SizedGrid::build(std::span<const Ball> balls, double margin) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Ball& b : balls) smallest = std::min(smallest, b.radius);
   for (std::uint32_t i = 0; i < balls.size(); ++i) {
+    if (!balls[i].centre.allFinite()) continue;  // nowhere, and near nothing
     const auto size_class = static_cast<std::size_t>(std::ilogb(balls[i].radius / smallest));
     if (size_class >= classes_.size()) classes_.resize(size_class + 1);
     Class& c = classes_[size_class];
