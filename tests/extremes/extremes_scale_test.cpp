@@ -15,7 +15,7 @@ const std::string pile =
     "4, "
     "at: ['x + 0.9 * s', 'y + 1.1 * s', '5 * s']}]}]\n"
     "boundaries: [{box: [['x - s', 'y - s', 0], ['x + 4 * s', 'y + 4 * s', '20 * s']]}]\n"
-    "bonds: [{a: 1, b: 2, stiffness: '1e5 * 2500 * s^3'}]\n"
+    "bonds: [{a: 1, b: 2, stiffness: '1e5 * 2500 * s^2'}]\n"
     "time: {dt: '0.01 * sqrt(s)', steps: n, substeps: 2}\nrun: {sub_models: 1}\n";
 
 std::vector<Override> settings(const std::string& engine, double scale, double x, double y) {
