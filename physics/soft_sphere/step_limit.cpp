@@ -98,7 +98,7 @@ StepLimit step_limit(const Scene& scene) {
     tighten(limit, held.largest_step(), "bonds", e.id);
     for (std::uint32_t other = 0; other < laws.materials(); ++other)
       for (const Stiffness& s : contact_stiffness(laws, laws.of(e.material, other), e.mass, radius, speed))
-        tighten(limit, (s + held).largest_step(), "contacts", e.id);
+        tighten(limit, (s + held).largest_step(), held.largest_step() < s.largest_step() ? "bonds" : "contacts", e.id);
     if (laws.hertz())
       tighten(limit, rayleigh_share * rayleigh_time(scene.materials.materials[e.material], e.mass, radius),
               "the Rayleigh wave", e.id);

