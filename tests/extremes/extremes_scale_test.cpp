@@ -35,9 +35,9 @@ double difference(const Outcome& a, const Outcome& b, double scale, const Vec3& 
   return most;
 }
 
-/// What is left of the answer at a distance [radii]. Bullet and impulse work around a local origin. soft_sphere works in
-/// doubles of the world: at 1e7 radii a place is known to 1e-9 and an overlap of 1e-4 to 1e-5 of itself, which comes
-/// back tenfold after a second of impacts. Measured: 3.2e-5 at 1e7 radii, 1.0e-4 at 2e7.
+/// How well the answer is known at a distance [radii]. Bullet and impulse work around a local origin: measured 6e-9.
+/// soft_sphere works in doubles of the world: at 1e7 radii a place is known to 1e-9, so an overlap of 1e-4 to 1e-5 of
+/// itself. Measured: 6e-8 at 1e4 radii, 3.2e-5 at 1e7, 1.0e-4 at 2e7.
 double resolved(const std::string& engine, double distance) {
   return engine == "soft_sphere" ? std::max(1e-5, 1e-11 * distance) : 1e-5;
 }
