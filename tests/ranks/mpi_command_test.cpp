@@ -87,10 +87,11 @@ TEST_F(Mpi, KeepsFramesOverARestart) {
   EXPECT_EQ(frames, 8) << "steps 0, 30, 60, 90, 120, 150, 180, 200";
 }
 
-/// A checkpoint of other materials is of another run.
+/// A checkpoint of other materials is of another run. 200 steps see several epochs, of which the longest has 64 rounds;
+/// the first checkpoint is made after the first of them.
 TEST_F(Mpi, RefusesACheckpointOfAnotherStiffness) {
   const std::string soft =
-      "--steps 60 --set count=100 --engine soft_sphere --dt 3e-4 --set materials.grain.restitution=0.5 ";
+      "--steps 200 --set count=100 --engine soft_sphere --dt 3e-4 --set materials.grain.restitution=0.5 ";
   EXPECT_EQ(run(0, soft + "--checkpoint-every 10").status, 0);
   const Ended other = run(0, soft + "--restart latest --set materials.grain.normal_stiffness=1e4");
   EXPECT_EQ(other.status, 2) << other.text;

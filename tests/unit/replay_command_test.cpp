@@ -29,7 +29,7 @@ runtime::Trace three_sub_models() {
   double now = 0;
   for (std::int32_t round = 0; round < 10; ++round)
     for (std::uint32_t s = 0; s < 3; ++s, ++now)
-      t.lists.tasks.push_back({.start = now, .end = now + 1, .ready = 0, .in_epoch = round, .sub_model = s});
+      t.lists.tasks.push_back({.start = now, .end = now + 1, .handed = now, .in_epoch = round, .sub_model = s});
   t.lists.phases.push_back({.start = 0, .end = now, .phase = runtime::Phase::work});
   return t;
 }
