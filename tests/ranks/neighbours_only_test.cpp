@@ -22,13 +22,14 @@ struct Traffic {
   std::int64_t collectives = 0;  ///< of rank 0
 };
 
-/// A beam of eight slabs, three diameters each: neighbours are those that touch.
+/// A beam of eight slabs, six diameters each: neighbours, which bounds closer than two diameters make, are those that
+/// touch.
 constexpr int slabs = 8;
 
 Traffic beam(int ranks, std::int64_t& rounds) {
-  const Scene scene = test::example(
-      "bonded_beam",
-      {test::set("time.duration", 0.15), test::set("run.sub_models", slabs), test::set("run.split", "slabs")});
+  const Scene scene =
+      test::example("bonded_beam", {test::set("elements.0.cells", "[48, 3, 3]"), test::set("time.duration", 0.15),
+                                    test::set("run.sub_models", slabs), test::set("run.split", "slabs")});
   Traffic traffic;
   std::mutex mutex;
   test::on_ranks({.ranks = ranks}, [&](Transport& inner) {
