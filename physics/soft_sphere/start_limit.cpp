@@ -38,7 +38,7 @@ void check_start(const Scene& scene) {
   const double limit = scene.run.max_speed > 0 ? scene.run.max_speed : most_typical_speeds * typical_speed(scene);
   if (speed <= limit) return;
   throw InputError(fmt::format(
-      "{}: element {} overlaps {} {} by {:.2g} % of its diameter at the start: engine soft_sphere would throw them "
+      "{}: element {} overlaps {} {} by {:.3g} % of its diameter at the start: engine soft_sphere would throw them "
       "apart "
       "at {:.3g} m/s, the limit is {:.3g} m/s (run.max_speed, or 10 times the speed at which elements are expected to "
       "meet); place elements apart or state a smaller normal_stiffness",

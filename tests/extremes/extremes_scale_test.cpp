@@ -63,7 +63,7 @@ TEST_P(Scale, OfDistanceDoesNotMatter) {
   const Outcome other = attempt(pile, settings(engine, 1, far, -far));
   ASSERT_TRUE(one.ran() && other.ran()) << one.text << other.text;
   const double d = difference(one, other, 1, Vec3(far, -far, 0));
-  record("X6 distance", engine, fmt::format("1e{} radii", power + 1), other.ending(),
+  record("X6 distance", engine, fmt::format("1e{} radii of 1 m", power + 1), other.ending(),
          fmt::format("differs by {:.1e} r", d));
   EXPECT_LT(d, resolved(engine, far));
 }
@@ -80,7 +80,7 @@ TEST(Far, TenMillionDiametersAway) {
       const Outcome other = attempt(pile, settings(engine, s, far, -far));
       ASSERT_TRUE(one.ran() && other.ran()) << one.text << other.text;
       const double d = difference(one, other, s, Vec3(far, -far, 0));
-      record("X6 distance", engine, fmt::format("r = {:.0e} m, 1e7 diameters", s), other.ending(),
+      record("X6 distance", engine, fmt::format("2e7 radii of {:.0e} m", s), other.ending(),
              fmt::format("differs by {:.1e} r", d));
       EXPECT_LT(d, resolved(engine, 2e7)) << engine << " " << s;
     }

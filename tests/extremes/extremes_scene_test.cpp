@@ -68,8 +68,8 @@ TEST_P(Odd, WithoutGravityRestStaysRest) {
   EXPECT_EQ(o.speed(), 0);
 }
 
-/// Measured in 20 s: bullet gains 0.3 %, impulse 2.1 %, as it meets several impacts at once in a few sweeps; soft_sphere
-/// at half its limit has 4 % more in between, as a contact begins and ends inside a step.
+/// Measured in 20 s: bullet gains 0.3 %, impulse 2.1 %, as it meets several impacts at once in a few sweeps;
+/// soft_sphere at half its limit has 4 % more in between, as a contact begins and ends inside a step.
 TEST_P(Odd, ElasticGasKeepsItsEnergy) {
   const std::string scene =
       "gravity: [0, 0, 0]\nmaterials: {ball: {density: 1000, restitution: 1}}\nelements:\n"

@@ -186,6 +186,9 @@ TEST(GuardLog, WarnsOnceCountsAndStops) {
   EXPECT_THROW(log.look(watch, 3), InvalidStateError);
   watch.extremes.beyond = {};
   accounts.kinetic_max = 1;
+  accounts.gained = 0.17;
+  EXPECT_NO_THROW(log.look(watch, 4)) << "as an elastic impact across a cut";
+  EXPECT_TRUE(mentions(log.warnings(context), "energy: "));
   accounts.gained = 0.5;
   EXPECT_THROW(log.look(watch, 4), InvalidStateError) << "half of all energy came from nowhere";
 }
