@@ -47,7 +47,7 @@ TEST(EngineLibraries, BothPrecisionsWorkInOneProcess) {
   }
   EXPECT_NEAR(twice.position(4).x(), 9.5, 1e-12);
   EXPECT_GT(std::abs(single.position(4).x() - 9.5), 1e-9);
-  EXPECT_NEAR(single.position(4).x(), 9.5, 1e-5);
+  EXPECT_NEAR(single.position(4).x(), 9.5, 5e-5) << "100 times half of what float32 resolves there, all to one side";
 }
 
 /// The lines "binding file USER [0] to PROVIDER [0]: ... `SYMBOL'" that the dynamic loader writes of all it resolves.
