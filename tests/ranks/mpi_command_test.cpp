@@ -103,7 +103,9 @@ TEST_F(Mpi, GoesOnAfterAKill) {
   const std::string steps = "--steps 1500 --checkpoint-every 20 ";
   const std::string whole = hash(0, steps);
   fs::remove_all(out_);
-  const Ended killed = shell(line(2, steps) + " & sleep 2; pkill -9 -n -P $!; wait $!");
+  const std::string saved = "ls " + out_.string() + "/checkpoints/*/manifest.json > /dev/null 2>&1";
+  const Ended killed = shell(line(2, steps) + " & while kill -0 $! && ! " + saved +
+                             "; do sleep 0.05; done; pkill -9 -n -P $!; wait $!");
   EXPECT_NE(killed.status, 0);
   EXPECT_NE(killed.text.find("--restart latest"), std::string::npos) << killed.text;
   EXPECT_EQ(hash(3, steps + "--restart latest"), whole);

@@ -78,9 +78,9 @@ class SpringWorld final : public World {
  private:
   static constexpr std::uint32_t magic = 0x50534d42U;
   void push(native::Place p, const Vec3& impulse) { bodies_[p].state.twist.linear += impulse / bodies_[p].mass; }
-  void touch(Contact c, native::Place p, double opening, double reduced_mass) {
+  void touch(Contact c, native::Place p, const Vec3& v, double inverse_mass) {
     const double k = 1e4 * s_.mass_unit / (s_.time_unit * s_.time_unit);
-    c.impulse = s_.substep * (k * c.overlap - 2 * std::sqrt(k * reduced_mass) * opening) * c.normal;
+    c.impulse = s_.substep * (k * c.overlap - 2 * std::sqrt(k / inverse_mass) * c.normal.dot(v)) * c.normal;
     push(p, c.impulse);
     contacts_.push_back(c);
   }
@@ -97,9 +97,8 @@ class SpringWorld final : public World {
       while (end < near_.size() && near_[end].ball == p && near_[end].wall == wall) ++end;
       native::find_touches(walls_[wall], balls_[p], std::span(near_).subspan(i, end - i), nearest_);
       for (const native::Nearest& n : nearest_) {
-        const double opening = n.normal.dot(start[p].state.twist.linear - walls_[wall].velocity(n.point));
-        const double overlap = balls_[p].radius - n.distance;
-        touch({start[p].id, wall, true, n.point, n.normal, overlap, {}}, p, opening, start[p].mass);
+        const Vec3 v = start[p].state.twist.linear - walls_[wall].velocity(n.point);
+        touch({start[p].id, wall, true, n.point, n.normal, balls_[p].radius - n.distance, {}}, p, v, 1 / start[p].mass);
         given_ += {contacts_.back().impulse, n.point.cross(contacts_.back().impulse)};
         work_ += contacts_.back().impulse.dot(walls_[wall].velocity(n.point));
       }
@@ -110,11 +109,10 @@ class SpringWorld final : public World {
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       const native::Place p = pairs_.lower()[k], q = pairs_.higher()[k];
       const Vec3 apart = balls_[p].centre - balls_[q].centre, n = apart.normalized();
-      const double opening = n.dot(start[p].state.twist.linear - start[q].state.twist.linear);
+      const Body &a = start[p], &b = start[q];
       const double overlap = balls_[p].radius + balls_[q].radius - apart.norm();
-      const double mass = 1 / (1 / start[p].mass + 1 / start[q].mass);
-      touch({start[p].id, start[q].id, false, balls_[q].centre + balls_[q].radius * n, n, overlap, {}}, p, opening,
-            mass);
+      touch({a.id, b.id, false, balls_[q].centre + balls_[q].radius * n, n, overlap, {}}, p,
+            a.state.twist.linear - b.state.twist.linear, 1 / a.mass + 1 / b.mass);
       push(q, -contacts_.back().impulse);
     }
   }
@@ -137,17 +135,15 @@ class SpringWorld final : public World {
 
 /// Its row. In the largest substep twelve critical dashpots at once are stable.
 inline Engine spring_engine() {
-  return {.name = "spring",
-          .help = "an example: frictionless balls and springs",
-          .precision = "float64",
-          .supports = [](const Geometry& g) { return std::holds_alternative<Sphere>(g); },
-          .relative_cost = [](double) { return 1.0; },
-          .make = [](auto& s, auto&) -> std::unique_ptr<World> { return std::make_unique<SpringWorld>(s); },
-          .bonds = false,
-          .step_limit =
-              [](auto& s) {
-                return StepLimit{0.001 * world_settings(s).time_unit, "its dashpots"};
-              }};
+  Engine row{.name = "spring",
+             .help = "an example: frictionless balls and springs",
+             .precision = "float64",
+             .supports = [](const Geometry& g) { return std::holds_alternative<Sphere>(g); },
+             .relative_cost = [](double) { return 1.0; },
+             .make = [](auto& s, auto&) -> std::unique_ptr<World> { return std::make_unique<SpringWorld>(s); },
+             .bonds = false};
+  row.step_limit = [](auto& s) { return StepLimit{0.001 * world_settings(s).time_unit, "its dashpots"}; };
+  return row;
 }
 
 }  // namespace moraine::test
