@@ -36,6 +36,12 @@ void put(const PairRow& row, std::uint32_t pair, PairBatch& to, std::size_t lane
   }
 }
 
+/// As the kernels write it.
+std::array<float, 4> carried_by(const PairRow& row) {
+  if (row.rebound > 0) return {0, 0, 0, -row.push};
+  return {row.side[0], row.side[1], row.side[2], row.push};
+}
+
 bool spare(const PairBatch& batch, std::size_t lane) { return lane > 0 && batch.pair[lane] == batch.pair[0]; }
 
 }  // namespace
@@ -126,9 +132,10 @@ void PairContacts::restore(std::span<const PairRow> rows) {
     const std::uint32_t from = k < rows.size() ? k : k / batch_lanes * batch_lanes;
     put(rows[from], from, batches_[k / batch_lanes], k % batch_lanes);
   }
-  for (const PairRow& r : rows)
-    if (r.rebound <= 0 && (r.push > 0 || !r.side.isZero(0)))
-      away_.push_back({r.a, r.b, {r.side[0], r.side[1], r.side[2], r.push}});
+  for (const PairRow& r : rows) {
+    const std::array<float, 4> carried = carried_by(r);
+    if (carried != std::array<float, 4>{}) away_.push_back({r.a, r.b, carried});
+  }
   listed_ = false;
   meeting_.count = rows.size();
 }

@@ -86,7 +86,7 @@ class PairContacts {
   const StepRule& rule_;
   NearList pairs_;
   bool listed_ = false;
-  std::vector<std::array<float, 4>> carried_;  ///< by place in the list: tangential and normal impulse, or zeros
+  std::vector<std::array<float, 4>> carried_;  ///< by place in the list, as in PairTable; zeros without contact
   std::vector<Carried> away_;                  ///< while there is no list: those that are not zero, ascending (a, b)
   std::vector<std::uint32_t> close_;           ///< pairs within reach
   Places meeting_, met_;                       ///< pairs in contact in this step and the one before, ascending

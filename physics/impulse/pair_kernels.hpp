@@ -43,7 +43,8 @@ struct BodyArrays {
 struct PairTable {
   const std::uint32_t *lower = nullptr, *higher = nullptr;
   std::size_t count = 0;
-  float* carried = nullptr;  ///< from 4 k: tangential impulse, normal impulse
+  /// From 4 k: tangential impulse, normal impulse. After an impact 0 and the negative impulse, which is not given again.
+  float* carried = nullptr;
 };
 
 /// What is left out if a scene does not use it.
@@ -122,8 +123,7 @@ struct PairKernels {
   void (*start)(const PairStartTask&);
   void (*sweep)(const PairTask&);
   /// The sweep after bodies have moved: what remains is to part with the right speed. Contacts that met within the step
-  /// do so along the line on which they touch: that keeps angular momentum. Writes what the contacts carry on: nothing
-  /// after an impact.
+  /// do so along the line on which they touch: that keeps angular momentum. Writes what the contacts carry on.
   void (*relax)(const PairTask&);
   /// Moves bodies by their velocities over h, and turns them. Turns of more than a revolution come out smaller.
   void (*advance)(const AdvanceTask&);

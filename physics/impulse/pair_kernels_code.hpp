@@ -138,8 +138,11 @@ MORAINE_INLINE void apply(const PairBatch& batch, Bodies8 m, const Wide& impulse
   }
 }
 
+/// Copies of a shared body start a step with the velocity of the load that they carry: in a contact that lasts, that is
+/// no impact, and a rebound from it would raise energy.
 template <bool Restitution>
-MORAINE_INLINE void prepare(PairBatch& batch, const PairStartTask& task, const F8& mass, const Lie& l) {
+MORAINE_INLINE void prepare(PairBatch& batch, const PairStartTask& task, const F8& mass, const Lie& l,
+                            const F8& carried) {
   const StepNumbers& n = task.numbers;
   const Laws law = laws(task.laws, task.bodies, batch.a, batch.b);
   F8 rebound = all(0);
@@ -149,8 +152,10 @@ MORAINE_INLINE void prepare(PairBatch& batch, const PairStartTask& task, const F
   if constexpr (Restitution) {
     const Wide before_a = gather(task.bodies.before, batch.a, 4).xyz,
                before_b = gather(task.bodies.before, batch.b, 4).xyz;
-    rebound = rebound_of(dot(l.normal, before_b - before_a), law.restitution, n);
-    const I8 bounces = (rebound > all(0)) & alone(task.bodies, batch.a, batch.b);
+    const I8 none_shared = alone(task.bodies, batch.a, batch.b);
+    rebound = choose(none_shared | (carried == all(0)),
+                     rebound_of(dot(l.normal, before_b - before_a), law.restitution, n), all(0));
+    const I8 bounces = (rebound > all(0)) & none_shared;
     hard |= bounces;
     approach = choose(bounces, -rebound, approach);
   }
@@ -172,14 +177,15 @@ void start_all(const PairStartTask& task) {
     }
     const Lie l = lie(task.bodies, batch.a, batch.b);
     const Bodies8 m = read(batch, task.bodies.moving);
-    prepare<Restitution>(batch, task, all(1) / (m.turning_a.w + m.turning_b.w), l);
     const Four carried = gather(task.table.carried, batch.pair, 4);
+    prepare<Restitution>(batch, task, all(1) / (m.turning_a.w + m.turning_b.w), l, carried.w);
     Wide side{};
     if constexpr (Friction) side = carried.xyz - dot(carried.xyz, l.normal) * l.normal;
+    const F8 push = larger(carried.w, all(0));
     store(l.normal, batch.normal);
     store(side, batch.side);
-    store(carried.w, batch.push);
-    apply<Friction>(batch, m, carried.w * l.normal + side, side, l.normal, task.bodies.moving);
+    store(push, batch.push);
+    apply<Friction>(batch, m, push * l.normal + side, side, l.normal, task.bodies.moving);
   }
 }
 
@@ -233,7 +239,7 @@ MORAINE_INLINE void carry(const PairBatch& batch, float* carried) {
   const Wide side = load(batch.side);
   const F8 zero = all(0);
   scatter({{choose(goes_on, side.x, zero), choose(goes_on, side.y, zero), choose(goes_on, side.z, zero)},
-           choose(goes_on, load(batch.push), zero)},
+           choose(goes_on, load(batch.push), -load(batch.push))},
           carried, batch.pair, 4);
 }
 

@@ -15,9 +15,9 @@ using test::example;
 using test::ModelRun;
 using test::set;
 
-constexpr std::size_t per_row = 18;
+constexpr std::size_t per_row = 12;
 
-/// Ids: 18 along x, then 3 along y, then 3 along z.
+/// Ids: 12 along x, then 3 along y, then 3 along z.
 std::size_t sphere(std::size_t along, std::size_t across, std::size_t up) {
   return along + per_row * (across + 3 * up);
 }
@@ -26,9 +26,9 @@ std::size_t sphere(std::size_t along, std::size_t across, std::size_t up) {
 double sag(const std::vector<Vec3>& at, const std::vector<Vec3>& start) {
   const auto fall = [&](std::size_t i) { return start[i].z() - at[i].z(); };
   double middle = 0;
-  for (std::size_t k = 0; k < 9; ++k) middle += (fall(sphere(8, k % 3, k / 3)) + fall(sphere(9, k % 3, k / 3))) / 18;
+  for (std::size_t k = 0; k < 9; ++k) middle += (fall(sphere(5, k % 3, k / 3)) + fall(sphere(6, k % 3, k / 3))) / 18;
   const double left = (fall(sphere(0, 0, 0)) + fall(sphere(0, 2, 0))) / 2;
-  return middle - (left + fall(sphere(17, 1, 0))) / 2;
+  return middle - (left + fall(sphere(per_row - 1, 1, 0))) / 2;
 }
 
 std::vector<Vec3> positions(const std::vector<ElementState>& states) {
@@ -131,14 +131,22 @@ TEST_P(BondedBeam, HangsAsItsBondsSay) {
   const double wanted = sag(Truss(run.scene()).hang(), start);
   RecordProperty("sag", fmt::format("{:.5f}", hung));
   RecordProperty("truss", fmt::format("{:.5f}", wanted));
-  EXPECT_GT(wanted, 0.5);
+  EXPECT_GT(wanted, 0.35);
   EXPECT_NEAR(hung, wanted, 0.01 * wanted);
   EXPECT_EQ(run.model().statistics().bonds_broken, 0U);
   EXPECT_LT(run.model().statistics().linear_residual, 1e-5);
 }
 
-const std::vector<Way> ways = {{"bullet", 1},  {"bullet", 2},  {"bullet", 3}, {"bullet", 7},
-                               {"impulse", 1}, {"impulse", 3}, {"impulse", 7}};
+/// The finer it is cut, the more substeps it takes: in seven it is 1.3 % off with the scene's 16.
+const std::vector<Way> ways = {
+    {"bullet", 1},
+    {"bullet", 2},
+    {"bullet", 3},
+    {"bullet", 7, {set("time.substeps", 32)}},
+    {"impulse", 1},
+    {"impulse", 3},
+    {"soft_sphere", 3, {set("time.substeps", 66)}},
+};
 
 INSTANTIATE_TEST_SUITE_P(Ways, BondedBeam, testing::ValuesIn(ways),
                          [](const auto& test) { return fmt::format("{}_in_{}", test.param.engine, test.param.parts); });
