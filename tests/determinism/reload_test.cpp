@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
               "bonded_beam",
               {set("time.duration", 0.5), set("run.sub_models", 3), set("run.engine", "impulse")}},
          Case{"column", "column", {set("time.duration", 1), set("run.sub_models", 5)}}},
-        4, 1.0)),  // long enough for several epochs
+        4)),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace
