@@ -38,7 +38,7 @@ void put(const PairRow& row, std::uint32_t pair, PairBatch& to, std::size_t lane
 
 /// As the kernels write it.
 std::array<float, 4> carried_by(const PairRow& row) {
-  if (row.rebound > 0) return {0, 0, 0, -row.push};
+  if (row.rebound > 0) return {0, 0, 0, row.push > 0 ? -row.rebound : 0};
   return {row.side[0], row.side[1], row.side[2], row.push};
 }
 

@@ -43,7 +43,7 @@ struct BodyArrays {
 struct PairTable {
   const std::uint32_t *lower = nullptr, *higher = nullptr;
   std::size_t count = 0;
-  /// From 4 k: tangential impulse, normal impulse. After an impact 0 and the negative impulse, which is not given again.
+  /// From 4 k: tangential impulse, normal impulse. After an impact: 0 and the negative speed of the rebound.
   float* carried = nullptr;
 };
 

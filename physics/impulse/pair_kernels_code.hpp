@@ -139,7 +139,7 @@ MORAINE_INLINE void apply(const PairBatch& batch, Bodies8 m, const Wide& impulse
 }
 
 /// Copies of a shared body start a step with the velocity of the load that they carry: in a contact that lasts, that is
-/// no impact, and a rebound from it would raise energy.
+/// no impact, and a rebound from it would raise energy. After an impact, rebounds of the steps that follow get smaller.
 template <bool Restitution>
 MORAINE_INLINE void prepare(PairBatch& batch, const PairStartTask& task, const F8& mass, const Lie& l,
                             const F8& carried) {
@@ -153,8 +153,10 @@ MORAINE_INLINE void prepare(PairBatch& batch, const PairStartTask& task, const F
     const Wide before_a = gather(task.bodies.before, batch.a, 4).xyz,
                before_b = gather(task.bodies.before, batch.b, 4).xyz;
     const I8 none_shared = alone(task.bodies, batch.a, batch.b);
-    rebound = choose(none_shared | (carried == all(0)),
-                     rebound_of(dot(l.normal, before_b - before_a), law.restitution, n), all(0));
+    const F8 fresh = rebound_of(dot(l.normal, before_b - before_a), law.restitution, n);
+    const F8 limit = all(-StepNumbers::again) * carried;
+    const F8 again = choose(limit > all(n.threshold), smaller(fresh, limit), all(0));
+    rebound = choose(none_shared | (carried == all(0)), fresh, again);
     const I8 bounces = (rebound > all(0)) & none_shared;
     hard |= bounces;
     approach = choose(bounces, -rebound, approach);
@@ -237,9 +239,9 @@ MORAINE_INLINE void turn(PairBatch& batch, const I8& met, const BodyArrays& bodi
 MORAINE_INLINE void carry(const PairBatch& batch, float* carried) {
   const I8 goes_on = load(batch.rebound) <= all(0);
   const Wide side = load(batch.side);
-  const F8 zero = all(0);
+  const F8 zero = all(0), push = load(batch.push);
   scatter({{choose(goes_on, side.x, zero), choose(goes_on, side.y, zero), choose(goes_on, side.z, zero)},
-           choose(goes_on, load(batch.push), -load(batch.push))},
+           choose(goes_on, push, choose(push > zero, -load(batch.rebound), zero))},
           carried, batch.pair, 4);
 }
 

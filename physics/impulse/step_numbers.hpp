@@ -7,6 +7,8 @@ namespace moraine::impulse {
 /// In scaled units; StepRule works them out.
 struct StepNumbers {
   static constexpr float push_limit = 1;  ///< overlaps are removed no faster
+  static constexpr float again =
+      0.5F;  ///< largest rebound of a shared body in the step after an impact, of the one before
 
   float h = 0;
   float slack = 0;      ///< gap that neighbours may close by pushing

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/impulse/wall_contacts.hpp"
 
+#include <algorithm>
+#include <limits>
+
 namespace moraine::impulse {
 namespace {
 
@@ -65,24 +68,26 @@ void WallContacts::add(const Bodies& bodies, WallRow row, const native::Nearest&
   row.inverse_mass = bodies.moving[row.ball].inverse_mass();
   row.mass = 1 / row.inverse_mass;
   if (!rule_.prepare(row, gap, closing, law, bodies.shared(row.ball))) return;
-  if (take_up(row) && bodies.shared(row.ball)) row.rebound = 0;  // as with pairs: copies carry load
+  const float limit = take_up(row);
+  if (bodies.shared(row.ball)) row.rebound = limit > rule_.numbers().threshold ? std::min(row.rebound, limit) : 0;
   rows_.push_back(row);
 }
 
-/// The impulses of the row of the step before whose normal is nearest. Returns whether there was one that pushed.
-bool WallContacts::take_up(WallRow& row) const {
+/// The impulses of the row of the step before whose normal is nearest. Returns how fast a shared ball may rebound,
+/// as in the kernels for pairs.
+float WallContacts::take_up(WallRow& row) const {
   float best = same_contact;
-  bool pushed = false;
+  float limit = std::numeric_limits<float>::infinity();
   for (std::size_t k = passed_; k < before_.size() && !earlier_place(row, before_[k]); ++k) {
     const WallRow& old = before_[k];
     const float cosine = old.normal.dot(row.normal);
-    pushed |= cosine > same_contact && old.push > 0;
+    if (cosine > same_contact && old.push > 0) limit = std::min(limit, StepNumbers::again * old.rebound);
     if (cosine <= best || old.rebound > 0) continue;
     best = cosine;
     row.push = old.push;
     row.side = old.side - old.side.dot(row.normal) * row.normal;
   }
-  return pushed;
+  return limit;
 }
 
 void WallContacts::warm_start(Moving* bodies) const {

@@ -52,7 +52,7 @@ class WallContacts {
   void sweep_all(Moving* bodies);
   void meet(const Bodies& bodies, Group group);
   void add(const Bodies& bodies, WallRow row, const native::Nearest& touch);
-  bool take_up(WallRow& row) const;
+  float take_up(WallRow& row) const;
 
   const StepRule& rule_;
   const Units& units_;

@@ -104,8 +104,8 @@ TEST_F(Mpi, GoesOnAfterAKill) {
   const std::string whole = hash(0, steps);
   fs::remove_all(out_);
   const std::string saved = "ls " + out_.string() + "/checkpoints/*/manifest.json > /dev/null 2>&1";
-  const Ended killed = shell(line(2, steps) + " & while kill -0 $! && ! " + saved +
-                             "; do sleep 0.05; done; pkill -9 -n -P $!; wait $!");
+  const Ended killed =
+      shell(line(2, steps) + " & while kill -0 $! && ! " + saved + "; do sleep 0.05; done; pkill -9 -n -P $!; wait $!");
   EXPECT_NE(killed.status, 0);
   EXPECT_NE(killed.text.find("--restart latest"), std::string::npos) << killed.text;
   EXPECT_EQ(hash(3, steps + "--restart latest"), whole);
