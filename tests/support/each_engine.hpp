@@ -11,7 +11,7 @@ namespace moraine::test {
 
 /// A dam of 300 spheres in `parts` sub-models, in steps that the engine can take: for 0.3 s, or 100 rounds if that is
 /// longer, so that several epochs come by, of which the longest has 64. Springs get restitution 0.5, which lets them
-/// take longer steps; impulses 0, as dam has it: with 0.5 those of a dense flow gain energy at cuts and run away.
+/// take longer steps.
 inline std::vector<Override> dam_for(const Engine& engine, int parts) {
   std::vector<Override> out{set("count", 300), set("run.sub_models", parts),
                             set("run.engine", std::string(engine.name))};
