@@ -17,7 +17,7 @@ double travel(double speed, double gravity, double substep, std::int64_t rounds)
   return 2 * speed * t + gravity * t * t / 2;
 }
 
-int longest_axis(std::span<const Reach> reaches) {
+int widest_axis(std::span<const Reach> reaches) {
   Bounds all;
   for (const Reach& r : reaches)
     if (!r.bounds.empty()) all.add(r.bounds);
@@ -28,7 +28,7 @@ int longest_axis(std::span<const Reach> reaches) {
 
 /// Ascending. Sweeps along the longest axis: those that are far apart there are never compared.
 std::vector<std::pair<SubModelId, SubModelId>> pairs_within(std::span<const Reach> reaches, double margin) {
-  const int axis = longest_axis(reaches);
+  const int axis = widest_axis(reaches);
   const auto bounds = [&](SubModelId id) -> const Bounds& { return reaches[id].bounds; };
   std::vector<SubModelId> order(reaches.size());
   std::iota(order.begin(), order.end(), 0U);

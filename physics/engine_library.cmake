@@ -6,8 +6,6 @@ function(moraine_engine_library name folder)
   set(exports ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/exports.map)
   add_library(moraine_${name} MODULE ${sources})
   target_link_libraries(moraine_${name} PRIVATE moraine_physics ${ARGN})
-  target_precompile_headers(moraine_${name} PRIVATE ${MORAINE_STD_HEADERS} <Eigen/Core> <Eigen/Geometry>)
-  target_precompile_headers(moraine_${name} PRIVATE ${MORAINE_STD_HEADERS} <Eigen/Core> <Eigen/Geometry>)
   # GCC would mark inline variables as one for the whole process.
   target_compile_options(moraine_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
   target_link_options(moraine_${name} PRIVATE -Wl,-Bsymbolic,--no-undefined,--as-needed -Wl,--version-script=${exports})

@@ -56,7 +56,7 @@ Json ranks_of(const runtime::Profile& p) {
   return out;
 }
 
-Json cures_of(const Findings& f) {
+Json tried_of(const Findings& f) {
   Json out = Json::array();
   for (const runtime::Cure& c : f.cures.tried)
     out.push_back({{"change", runtime::words(c, f.work)},
@@ -122,7 +122,7 @@ nlohmann::ordered_json json_of(const Findings& f) {
                              : Json();
   out["cure"] = f.advice ? Json{{"change", f.advice->words}, {"gain", f.advice->gain}} : Json();
   out["replayed_now_s"] = f.cures.now.makespan;
-  out["tried"] = cures_of(f);
+  out["tried"] = tried_of(f);
   return out;
 }
 

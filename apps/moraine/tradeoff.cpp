@@ -30,7 +30,7 @@ std::vector<Record> of_setting(const std::vector<Record>& records, std::size_t s
   return own;
 }
 
-void write(const Report& report, const std::filesystem::path& folder) {
+void write(const study::Report& report, const std::filesystem::path& folder) {
   replace_file(folder / "settings.csv", csv_text(report));
   replace_file(folder / "settings.json", json_text(report));
   replace_file(folder / "front.md", front_text(report));
@@ -57,7 +57,7 @@ class Tradeoff {
     report_.cores = runtime::usable_cores();
   }
 
-  Report go() {
+  study::Report go() {
     const std::vector<Setting> settings = subject_.resolve(combinations(choices_.study.grid(subject_)));
     const std::vector<Record> reference = run_reference(subject_, laboratory_, first_seed(), seeds_);
     const Yardstick yardstick(subject_.scene(), reference);
@@ -85,7 +85,7 @@ class Tradeoff {
   Subject subject_;
   Laboratory laboratory_;
   int seeds_;
-  Report report_;
+  study::Report report_;
 };
 
 }  // namespace
@@ -98,7 +98,7 @@ void TradeoffChoices::add_to(CLI::App& command) {
 }
 
 int tradeoff(const TradeoffChoices& choices, const std::string& command) {
-  const Report report = Tradeoff(choices, command).go();
+  const study::Report report = Tradeoff(choices, command).go();
   const std::filesystem::path folder = choices.study.folder(choices.study.subject());
   write(report, folder);
   std::cout << front_text(report) << "\nresults in " << folder.string()

@@ -13,8 +13,6 @@ std::vector<double> sum_by_rank(const std::vector<double>& amounts, const Owners
   return sums;
 }
 
-double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
-
 double most(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
 
 void count_moves(const BalanceProblem& problem, BalanceDecision& decision) {
@@ -36,6 +34,8 @@ bool pays(const BalanceProblem& problem, const BalanceDecision& decision) {
 }
 
 }  // namespace
+
+double sum(std::span<const double> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 Forecast forecast(const BalanceProblem& problem, const Owners& owners) {
   std::vector<double> time = sum_by_rank(problem.load, owners, problem.ranks());

@@ -2,9 +2,13 @@
 // Whether a plan is worth the moves it takes.
 #pragma once
 
+#include <span>
+
 #include "runtime/balance/balancer.hpp"
 
 namespace moraine::runtime {
+
+double sum(std::span<const double> values);
 
 /// What a round is predicted to be like under some owners.
 struct Forecast {

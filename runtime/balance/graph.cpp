@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 #include <stdexcept>
 
 #include "runtime/balance/decision.hpp"
@@ -31,8 +30,6 @@ constexpr SCOTCH_Num seed = 1;
 void require(int status) {
   if (status != 0) throw std::runtime_error("balancer graph: Scotch failed; its message is on standard error");
 }
-
-double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 SCOTCH_Num whole(double amount) { return std::max<SCOTCH_Num>(1, static_cast<SCOTCH_Num>(std::llround(amount))); }
 

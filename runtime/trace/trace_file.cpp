@@ -20,7 +20,7 @@ namespace {
 constexpr char magic[8] = {'M', 'O', 'R', 'T', 'R', 'A', 'C', 'E'};
 constexpr std::uint32_t version = 1;
 
-struct Head {
+struct FileHead {
   char word[8];
   std::uint32_t version;
   std::uint32_t unused;
@@ -106,7 +106,7 @@ void unpack(std::span<const std::byte> packed, TraceLists& lists) {
 
 TraceWriter::TraceWriter(const std::filesystem::path& file, const TraceSettings& settings)
     : path_(file), file_(file, std::ios::binary | std::ios::trunc) {
-  Head head{{}, version, 0};
+  FileHead head{{}, version, 0};
   std::copy(std::begin(magic), std::end(magic), head.word);
   file_.write(reinterpret_cast<const char*>(&head), sizeof head);
   const std::string text = settings_text(settings);
@@ -132,7 +132,7 @@ class TraceReader {
   explicit TraceReader(const std::filesystem::path& file) : path_(file), file_(file, std::ios::binary) {
     if (!file_) refuse("cannot be read");
     left_ = std::filesystem::file_size(file);
-    Head head{};
+    FileHead head{};
     if (!take(&head, sizeof head) || !std::equal(std::begin(magic), std::end(magic), head.word))
       refuse("is not a trace, expected a file that 'moraine run --trace' wrote");
     if (head.version != version)

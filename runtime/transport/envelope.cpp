@@ -12,7 +12,7 @@ namespace {
 enum class Kind : std::uint32_t { message, failure };
 
 /// What stands before the content. Ranks of one run are of one machine kind and one program.
-struct Head {
+struct MessageHead {
   std::uint32_t version = 2;
   Kind kind = Kind::message;
   std::uint64_t length = 0;
@@ -26,7 +26,7 @@ struct Head {
   double sent_at = 0;
 };
 
-Bytes join(const Head& head, std::span<const std::byte> content) {
+Bytes join(const MessageHead& head, std::span<const std::byte> content) {
   Bytes out(sizeof head + content.size());
   std::memcpy(out.data(), &head, sizeof head);
   if (!content.empty()) std::memcpy(out.data() + sizeof head, content.data(), content.size());
@@ -40,7 +40,7 @@ Bytes join(const Head& head, std::span<const std::byte> content) {
 }  // namespace
 
 Bytes pack(const Envelope& e, double sent_at, std::span<const std::byte> content) {
-  Head head;
+  MessageHead head;
   head.length = content.size();
   head.checksum = XXH3_64bits(content.data(), content.size());
   head.stage = e.stage;
@@ -53,16 +53,16 @@ Bytes pack(const Envelope& e, double sent_at, std::span<const std::byte> content
 }
 
 Bytes pack_failure() {
-  Head head;
+  MessageHead head;
   head.kind = Kind::failure;
   return join(head, {});
 }
 
 Opened unpack(const Parcel& parcel) {
-  Head head;
+  MessageHead head;
   if (parcel.bytes.size() < sizeof head) refuse(parcel, "is too short");
   std::memcpy(&head, parcel.bytes.data(), sizeof head);
-  if (head.version != Head{}.version) refuse(parcel, "is of another version of this program");
+  if (head.version != MessageHead{}.version) refuse(parcel, "is of another version of this program");
   if (head.kind == Kind::failure) throw FailedElsewhere(fmt::format("rank {} has failed", parcel.from));
   const auto content = std::span(parcel.bytes).subspan(sizeof head);
   if (content.size() != head.length || XXH3_64bits(content.data(), content.size()) != head.checksum)

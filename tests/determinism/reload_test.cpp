@@ -40,12 +40,12 @@ std::uint64_t hash_after(const Scene& scene, Model& model) {
   return state_hash(scene, model.states());
 }
 
-struct Case {
+struct ReloadCase {
   std::string name, scene;
   std::vector<Override> settings;
 };
 
-class Reload : public testing::TestWithParam<Case> {};
+class Reload : public testing::TestWithParam<ReloadCase> {};
 
 TEST_P(Reload, ChangesNothing) {
   const Scene scene = example(GetParam().scene, GetParam().settings);
@@ -57,16 +57,17 @@ TEST_P(Reload, ChangesNothing) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, Reload,
-    testing::ValuesIn(test::with_every_engine<Case>(
-        {Case{"crust_small",
-              "crust_small",
-              {set("count", 800), set("radius", "3000"), set("dt", 1), set("steps", 100), set("run.sub_models", 4)}},
-         Case{"mixed_shapes", "mixed_shapes", {set("time.duration", 1.5), set("run.sub_models", 4)}},
-         Case{"bonded_beam", "bonded_beam", {set("time.duration", 0.5), set("run.sub_models", 3)}},
-         Case{"beam_impulse",
-              "bonded_beam",
-              {set("time.duration", 0.5), set("run.sub_models", 3), set("run.engine", "impulse")}},
-         Case{"column", "column", {set("time.duration", 1), set("run.sub_models", 5)}}},
+    testing::ValuesIn(test::with_every_engine<ReloadCase>(
+        {ReloadCase{
+             "crust_small",
+             "crust_small",
+             {set("count", 800), set("radius", "3000"), set("dt", 1), set("steps", 100), set("run.sub_models", 4)}},
+         ReloadCase{"mixed_shapes", "mixed_shapes", {set("time.duration", 1.5), set("run.sub_models", 4)}},
+         ReloadCase{"bonded_beam", "bonded_beam", {set("time.duration", 0.5), set("run.sub_models", 3)}},
+         ReloadCase{"beam_impulse",
+                    "bonded_beam",
+                    {set("time.duration", 0.5), set("run.sub_models", 3), set("run.engine", "impulse")}},
+         ReloadCase{"column", "column", {set("time.duration", 1), set("run.sub_models", 5)}}},
         4)),
     [](const auto& test) { return test.param.name; });
 

@@ -23,20 +23,20 @@ std::vector<double> ridge(double at) {
   return load;
 }
 
-struct Epoch {
+struct Balanced {
   double imbalance;
   std::int64_t moves;
 };
 
 /// One epoch after the other: the load is met, remembered, and owners are settled for the next.
-std::vector<Epoch> run(const std::string& balancer, const std::vector<std::vector<double>>& loads) {
+std::vector<Balanced> run(const std::string& balancer, const std::vector<std::vector<double>>& loads) {
   const BalancerRow& row_of_table = find_balancer(balancer);
   const auto policy = row_of_table.make({});
   BalanceProblem problem = row(std::vector<double>(size, 1.0), ranks);
   problem.owner = initial_owners(problem.load, problem.speed);
   problem.costs = {.seconds_per_byte = 1e-9, .seconds_per_move = 1e-3, .rounds = 10};
   std::vector<LoadHistory> history(size);
-  std::vector<Epoch> epochs;
+  std::vector<Balanced> epochs;
   for (const std::vector<double>& load : loads) {
     problem.load = load;
     epochs.push_back({imbalance(problem, problem.owner), 0});
@@ -60,7 +60,7 @@ class MovingLoad : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(MovingLoad, IsEvenedOutInThreeRoundsThenLeftAlone) {
-  const std::vector<Epoch> epochs = run(GetParam(), std::vector(20, ridge(size / 8.0)));
+  const std::vector<Balanced> epochs = run(GetParam(), std::vector(20, ridge(size / 8.0)));
   EXPECT_GE(epochs[0].imbalance, 1.5);
   for (std::size_t i = 3; i < epochs.size(); ++i) {
     EXPECT_LE(epochs[i].imbalance, even_) << i;
@@ -72,7 +72,7 @@ TEST_P(MovingLoad, IsEvenedOutInThreeRoundsThenLeftAlone) {
 TEST_P(MovingLoad, IsEvenedOutAgainWhenItChanges) {
   std::vector<std::vector<double>> loads(10, ridge(size / 8.0));
   loads.insert(loads.end(), 10, ridge(size * 5 / 8.0));
-  const std::vector<Epoch> epochs = run(GetParam(), loads);
+  const std::vector<Balanced> epochs = run(GetParam(), loads);
   for (const std::size_t i : {3, 9, 13, 19}) EXPECT_LE(epochs[i].imbalance, even_) << i;
   for (const std::size_t i : {9, 19}) EXPECT_EQ(epochs[i].moves, 0) << i;
 }
@@ -81,7 +81,7 @@ TEST_P(MovingLoad, IsEvenedOutAgainWhenItChanges) {
 TEST_P(MovingLoad, IsFollowed) {
   std::vector<std::vector<double>> loads;
   for (int epoch = 0; epoch < 20; ++epoch) loads.push_back(ridge(size / 8.0 + 0.5 * epoch));
-  const std::vector<Epoch> epochs = run(GetParam(), loads);
+  const std::vector<Balanced> epochs = run(GetParam(), loads);
   for (std::size_t i = 3; i < epochs.size(); ++i) EXPECT_LE(epochs[i].imbalance, even_ + 2.0 / 12) << i;
 }
 
