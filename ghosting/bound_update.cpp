@@ -35,24 +35,25 @@ void SubModel::update_bounds() {
 
 /// Where the host told its border; the others' ghosts stay.
 void SubModel::choose_ghosts() {
-  bool any = false;
+  bool changed = false;
   for (OwnerLink& link : owner_links_) {
-    if (link.border_is_new) choose_hosted(link);
-    any = any || link.border_is_new;
+    if (link.border_is_new && choose_hosted(link)) changed = true;
     link.border_is_new = false;
   }
-  if (any) update_shared();
+  if (changed) update_shared();
 }
 
-/// By distance, with memory, and by bond.
-void SubModel::choose_hosted(OwnerLink& link) {
+/// By distance, with memory, and by bond. Returns whether the list has changed.
+bool SubModel::choose_hosted(OwnerLink& link) {
   find_touching(link, found_);
   std::erase_if(link.bonds,
                 [&](const CrossBond& b) { return std::binary_search(broken_.begin(), broken_.end(), b.bond); });
   for (const CrossBond& b : link.bonds) found_.push_back(b.own);
   std::sort(found_.begin(), found_.end());
   found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
-  link.hosted.assign(found_.begin(), found_.end());
+  if (found_ == link.hosted) return false;
+  std::swap(found_, link.hosted);
+  return true;
 }
 
 /// Members whose bounding sphere comes closer than the skin to that of an element of the host, ascending.
@@ -85,20 +86,20 @@ void SubModel::find_touching(const OwnerLink& link, std::vector<std::uint32_t>& 
 
 /// Brings the list of shared elements in line with the hosted lists of all links.
 void SubModel::update_shared() {
-  std::vector<std::pair<std::uint32_t, SubModelId>> wanted;
+  wanted_.clear();
   for (const OwnerLink& link : owner_links_)
-    for (const std::uint32_t e : link.hosted) wanted.emplace_back(e, link.host);
-  std::sort(wanted.begin(), wanted.end());
+    for (const std::uint32_t e : link.hosted) wanted_.emplace_back(e, link.host);
+  std::sort(wanted_.begin(), wanted_.end());
 
-  std::vector<SharedElement> before = std::move(shared_);
+  std::swap(shared_, shared_before_);
   shared_.clear();
   std::fill(shared_index_.begin(), shared_index_.end(), -1);
-  auto old = before.begin();
-  for (auto at = wanted.begin(); at != wanted.end();) {
+  auto old = shared_before_.begin();
+  for (auto at = wanted_.begin(); at != wanted_.end();) {
     const std::uint32_t element = at->first;
-    for (; old != before.end() && old->element < element; ++old) unshare(*old);
+    for (; old != shared_before_.end() && old->element < element; ++old) unshare(*old);
     SharedElement shared;
-    if (old != before.end() && old->element == element) {
+    if (old != shared_before_.end() && old->element == element) {
       shared = std::move(*old++);
     } else {
       shared.element = element;
@@ -107,7 +108,7 @@ void SubModel::update_shared() {
       shared.copies = {Copy::in(id_)};
     }
     std::vector<SubModelId> worlds{id_};
-    for (; at != wanted.end() && at->first == element; ++at) worlds.push_back(at->second);
+    for (; at != wanted_.end() && at->first == element; ++at) worlds.push_back(at->second);
     std::sort(worlds.begin(), worlds.end());
     const bool same = std::equal(worlds.begin(), worlds.end(), shared.copies.begin(), shared.copies.end(),
                                  [](SubModelId w, const Copy& c) { return w == c.world; });
@@ -115,7 +116,7 @@ void SubModel::update_shared() {
     shared_index_[shared.member] = static_cast<std::int32_t>(shared_.size());
     shared_.push_back(std::move(shared));
   }
-  for (; old != before.end(); ++old) unshare(*old);
+  for (; old != shared_before_.end(); ++old) unshare(*old);
   locate_hosted();
 }
 

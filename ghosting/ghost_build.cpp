@@ -22,17 +22,16 @@ void SubModel::ghost_build(const runtime::Round& round, runtime::Port& port) {
 
 /// Both lists ascend by element: one pass keeps, makes and drops.
 void SubModel::update_ghosts(HostLink& link, const BoundMessage& message) {
-  std::vector<Ghost> ghosts;
-  ghosts.reserve(message.ghosts.size());
-  auto old = link.ghosts.begin();
+  std::swap(link.ghosts, ghosts_before_);
+  link.ghosts.clear();
+  auto old = ghosts_before_.begin();
   for (const GhostOrder& order : message.ghosts) {
-    for (; old != link.ghosts.end() && old->element < order.element; ++old) drop_ghost(link, *old);
-    const bool fresh = old == link.ghosts.end() || old->element != order.element;
-    ghosts.push_back(fresh ? Ghost{order.element, 0, {}} : *old++);
-    place_ghost(ghosts.back(), order, fresh);
+    for (; old != ghosts_before_.end() && old->element < order.element; ++old) drop_ghost(link, *old);
+    const bool fresh = old == ghosts_before_.end() || old->element != order.element;
+    link.ghosts.push_back(fresh ? Ghost{order.element, 0, {}} : *old++);
+    place_ghost(link.ghosts.back(), order, fresh);
   }
-  for (; old != link.ghosts.end(); ++old) drop_ghost(link, *old);
-  link.ghosts = std::move(ghosts);
+  for (; old != ghosts_before_.end(); ++old) drop_ghost(link, *old);
 }
 
 void SubModel::place_ghost(Ghost& ghost, const GhostOrder& order, bool fresh) {

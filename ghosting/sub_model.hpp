@@ -156,7 +156,7 @@ class SubModel final : public runtime::SubModel {
   void bound_update(const runtime::Round& round, runtime::Port& port);
   void update_bounds();
   void choose_ghosts();
-  void choose_hosted(OwnerLink& link);
+  bool choose_hosted(OwnerLink& link);
   void find_touching(const OwnerLink& link, std::vector<std::uint32_t>& out);
   void update_shared();
   void locate_hosted();
@@ -208,6 +208,9 @@ class SubModel final : public runtime::SubModel {
   std::vector<std::array<double, 3>> points_;
   std::vector<std::uint32_t> found_;
   std::vector<CopyMotion> copy_motions_;
+  std::vector<std::pair<std::uint32_t, SubModelId>> wanted_;  ///< element, host
+  std::vector<SharedElement> shared_before_;
+  std::vector<Ghost> ghosts_before_;
 };
 
 }  // namespace moraine
