@@ -36,8 +36,20 @@ std::uint32_t element_index(const Scene& scene, ElementId id) {
   return static_cast<std::uint32_t>(at - scene.elements.begin());
 }
 
-/// Blocks of sub-models with about as many elements on each rank.
-runtime::Owners first_placement(const std::vector<std::vector<std::uint32_t>>& members, int ranks) {
+/// Blocks of as many sub-models as the scene says. Errors: InputError unless they are all there are.
+runtime::Owners stated_placement(const std::vector<int>& counts, std::size_t parts, int ranks) {
+  const auto stated = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+  if (counts.size() != static_cast<std::size_t>(ranks) || stated != parts)
+    throw InputError(
+        fmt::format("run.owners: {} sub-models on {} ranks, expected {} on {}", stated, counts.size(), parts, ranks));
+  runtime::Owners owners;
+  for (int rank = 0; rank < ranks; ++rank) owners.insert(owners.end(), static_cast<std::size_t>(counts[rank]), rank);
+  return owners;
+}
+
+/// Blocks of sub-models, with about as many elements on each rank unless the scene says otherwise.
+runtime::Owners first_placement(const Scene& scene, const std::vector<std::vector<std::uint32_t>>& members, int ranks) {
+  if (ranks > 1 && !scene.run.owners.empty()) return stated_placement(scene.run.owners, members.size(), ranks);
   std::vector<double> load;
   for (const auto& m : members) load.push_back(static_cast<double>(m.size()));
   return runtime::initial_owners(load, std::vector<double>(static_cast<std::size_t>(ranks), 1.0));
@@ -113,7 +125,7 @@ void CoupledModel::cut(std::span<const ElementState> states, std::span<const Con
     const auto [first, second] = context_.bond_ends[b];
     if (owners_[first] == owners_[second]) bonds[owners_[first]].push_back(b);
   }
-  if (placement().owner.empty()) place({transport_.rank(), first_placement(members, transport_.ranks())});
+  if (placement().owner.empty()) place({transport_.rank(), first_placement(scene(), members, transport_.ranks())});
   const std::vector<std::vector<ContactMemory>> remembered = by_part(memory);
   sub_models_.clear();
   sub_models_.resize(parts_);

@@ -55,6 +55,14 @@ int read_sub_models(const Node& node) {
   return static_cast<int>(found->integer(1, most));
 }
 
+std::vector<int> read_owners(const Node& node) {
+  std::vector<int> counts;
+  if (const auto found = node.find("owners"))
+    for (const Node& count : found->items("how many sub-models each rank owns"))
+      counts.push_back(static_cast<int>(count.integer(0, most)));
+  return counts;
+}
+
 /// "FROM:TO" or "FROM:TO:EVERY".
 RunSettings::TraceWindow read_window(const Node& node) {
   RunSettings::TraceWindow w;
@@ -90,7 +98,8 @@ void read_run(const Node& root, RunSettings& run) {
                "balancer",     "balance_every",
                "balance_by",   "checkpoint_every",
                "restart",      "trace",
-               "trace_window", "max_speed"});
+               "trace_window", "max_speed",
+               "owners"});
   run.engine = node->text("engine", run.engine);
   run.engine_profile = node->text("engine_profile", run.engine_profile);
   run.sub_models = read_sub_models(*node);
@@ -104,6 +113,7 @@ void read_run(const Node& root, RunSettings& run) {
   run.scheduler = node->text("scheduler", run.scheduler);
   run.threads = read_int(*node, "threads", run.threads, 0);
   run.balancer = node->text("balancer", run.balancer);
+  run.owners = read_owners(*node);
   run.balance_every = read_int(*node, "balance_every", run.balance_every, 1);
   run.balance_measured = read_measured(*node);
   run.checkpoint_every = read_int(*node, "checkpoint_every", run.checkpoint_every, 0);

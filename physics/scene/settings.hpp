@@ -34,6 +34,7 @@ struct RunSettings {
   std::string scheduler = "hybrid";
   int threads = 0;                  ///< of each rank; 0: its share of the cores it may use
   std::string balancer = "refine";  ///< which rank owns which sub-model
+  std::vector<int> owners;          ///< sub-models that each rank owns at first, in order; empty: blocks of even size
   int balance_every = 1;            ///< steps from one balance to the next, at least
   bool balance_measured = true;     ///< by measured time; else by counted work: the same plans every time
   int checkpoint_every = 0;         ///< steps from one checkpoint to the next, at least; 0: none

@@ -68,6 +68,12 @@ TEST_F(Mpi, WrongInputEndsAllRanks) {
   EXPECT_EQ(ended.status, 2) << ended.text;
 }
 
+TEST_F(Mpi, RefusesOwnersThatDoNotAddUp) {
+  const Ended ended = run(2, "--set run.owners=[3,3]");
+  EXPECT_EQ(ended.status, 2) << ended.text;
+  EXPECT_NE(ended.text.find("6 sub-models on 2 ranks, expected 7 on 2"), std::string::npos) << ended.text;
+}
+
 /// Frames written before a stop stay, in the index and in files that hold all of them.
 TEST_F(Mpi, KeepsFramesOverARestart) {
   const std::string output = " --output-every 30 --set output.formats=[pvd,lammps_dump,vtkhdf]";
