@@ -30,6 +30,10 @@ std::vector<Value> over_ranks(Transport& transport, Value own) {
   return all;
 }
 
+int threads_of(const Options& options, Transport& transport) {
+  return options.threads == 0 ? threads_for(transport) : options.threads;
+}
+
 /// Models of one rank hold everything; others may have been placed by their maker.
 void place_if_new(Model& model, const Transport& transport) {
   if (!model.placement().owner.empty()) return;
@@ -46,8 +50,10 @@ Simulation::Simulation(Model& model, const Options& options, Hooks hooks)
       transport_(chosen(options.transport)),
       clock_(transport_),
       phases_(clock_),
-      executor_(options.threads == 0 ? threads_for(transport_) : options.threads,
-                find_scheduler(options.scheduler).make(), clock_, options.processor_time && transport_.ranks() > 1),
+      executor_(threads_of(options, transport_), find_scheduler(options.scheduler).make(),
+                {.clock = clock_,
+                 .processor_time = options.processor_time && transport_.ranks() > 1,
+                 .shared_cores = threads_of(options, transport_) * transport_.ranks_on_these_cores() > usable_cores()}),
       mail_(transport_, options.check_messages, clock_),
       balance_(options.balance, transport_),
       checkpoints_(options.checkpoint, transport_) {

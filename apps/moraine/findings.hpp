@@ -22,7 +22,7 @@ struct Findings {
   std::optional<runtime::Advice> advice;
   std::string sentence;
 
-  double cores() const { return runtime::cores_of(trace.settings); }
+  double cores() const { return trace.settings.all_cores(); }
 };
 
 /// Tables for people.

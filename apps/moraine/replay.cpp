@@ -32,7 +32,7 @@ std::vector<Value> chosen(const std::vector<Value>& list, const Value& traced) {
 
 ReplayOptions common_options(const ReplayChoices& c, const Workload& work) {
   ReplayOptions o = runtime::as_traced(work);
-  o.machine.cores = c.cores;
+  if (c.cores >= 0) o.machine.cores = c.cores;
   if (c.latency >= 0) o.machine.latency = c.latency;
   o.machine.bandwidth = c.bandwidth;
   o.machine.speed = c.speed;
@@ -180,7 +180,8 @@ void ReplayChoices::add_to(CLI::App& command) {
   command.add_option("--scheduler", schedulers, "one or several")->delimiter(',');
   command.add_option("--balancer", balancers, "one or several")->delimiter(',');
   command.add_option("--balance-every", balance_every, "steps between balances")->check(CLI::PositiveNumber);
-  command.add_option("--cores", cores, "that all ranks share; 0: one for every thread")->check(CLI::NonNegativeNumber);
+  command.add_option("--cores", cores, "that all ranks share; 0: one for every thread (default: as traced)")
+      ->check(CLI::NonNegativeNumber);
   command.add_option("--latency", latency, "seconds, of a message between ranks")->check(CLI::NonNegativeNumber);
   command.add_option("--bandwidth", bandwidth, "bytes/s that a rank can send")->check(CLI::PositiveNumber);
   command.add_option("--speed", speed, "of cores, relative to the traced ones")->check(CLI::PositiveNumber);

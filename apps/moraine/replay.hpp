@@ -15,7 +15,7 @@ struct ReplayChoices {
   std::vector<int> ranks, threads;
   std::vector<std::string> schedulers, balancers;
   int balance_every = -1;  ///< steps
-  int cores = 0;
+  int cores = -1;          ///< as traced
   double latency = -1, bandwidth = 1e10, speed = 1;
   std::size_t copies = 1;
   int epochs = -1;

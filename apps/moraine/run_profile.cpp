@@ -27,7 +27,7 @@ std::optional<runtime::Advice> advice_for(const runtime::RunRecord& run, const s
   std::vector<Counters> counters;
   for (const runtime::RunRecord::Counters& c : run.counters) std::ranges::copy(c, counters.emplace_back().begin());
   const runtime::Workload work = runtime::typical_workload(run);
-  const runtime::CureSearch search{.cores = runtime::cores_of(run.settings),
+  const runtime::CureSearch search{.cores = run.settings.all_cores(),
                                    .halo = ghost_overhead(run.settings, counters, seconds).halo()};
   return runtime::advice_of(runtime::find_cures(work, search), work);
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 
 #include "runtime/balance/registry.hpp"
@@ -25,7 +24,7 @@ class Candidates {
   std::vector<Cure> all() {
     schedulers_and_balancers();
     if (phase_share(Phase::output) > Cures::least_gain) add({.change = Change::less_output, .options = base_.options});
-    if (base_.options.machine.workers() <= cores_) layouts();
+    layouts();
     for (const std::size_t pieces : {2, 4, 8})
       add({.change = Change::finer_cut, .options = base_.options, .pieces = pieces});
     return std::move(out_);
@@ -66,6 +65,7 @@ class Candidates {
     cure.options.machine.ranks = ranks;
     cure.options.machine.threads = threads;
     cure.fits = ranks * threads <= cores_;
+    if (!cure.fits) cure.options.machine.cores = 0;
     add(cure);
   }
 
@@ -107,10 +107,6 @@ std::optional<std::size_t> best_of(const std::vector<Cure>& tried) {
 }
 
 }  // namespace
-
-double cores_of(const TraceSettings& settings) {
-  return std::accumulate(settings.cores.begin(), settings.cores.end(), 0.0);
-}
 
 Cures find_cures(const Workload& work, const CureSearch& search) {
   Cures out{.now = replay(work, as_traced(work)), .tried = Candidates(work, search).all(), .best = {}};

@@ -43,9 +43,6 @@ struct CureSearch {
   std::function<void(const Cure&)> progress = [](const Cure&) {};  ///< told of each before it is tried
 };
 
-/// The cores of the machine that a trace tells of.
-double cores_of(const TraceSettings& settings);
-
 /// Tries every scheduler; every balancer that moves for gain; other layouts with as many workers, with as many as
 /// there are cores, and with half and twice as many; sub-models cut in 2, 4 and 8; a quarter of the output. The best
 /// gains most on the traced machine; of those within a hundredth of it, the first in the order of Change. Layouts are

@@ -2,6 +2,7 @@
 #include "runtime/replay/cluster.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <limits>
 #include <memory>
 #include <queue>
@@ -30,7 +31,7 @@ struct Rank {
   double sends_until = 0;          ///< its network is busy
 };
 
-/// A running task. `end` is in work time, which passes more slowly than time while tasks share cores.
+/// A task that has a core until `end`.
 struct Running {
   double end = 0;
   int rank = 0;
@@ -85,19 +86,28 @@ class Cluster {
  private:
   /// What comes first: a task's end or a message.
   void step() {
-    const double rate = running_.empty() ? 1.0 : share();
-    const double end = running_.empty() ? never : now_ + (running_.top().end - work_time_) / rate;
+    const double end = running_.empty() ? never : running_.top().end;
     const double arrival = travelling_.empty() ? never : travelling_.top().arrival;
-    const double next = std::max(now_, std::min(end, arrival));
-    work_time_ = arrival < end ? work_time_ + (next - now_) * rate : running_.top().end;
-    now_ = next;
+    now_ = std::max(now_, std::min(end, arrival));
     arrival < end ? arrive() : finish();
   }
 
-  /// Of a core that each running task has.
-  double share() const {
-    const auto tasks = static_cast<double>(running_.size());
-    return machine_.cores > 0 ? std::min(1.0, machine_.cores / tasks) : 1.0;
+  /// `task.end`: seconds that it takes.
+  void run(Running task) {
+    if (machine_.cores > 0 && running_.size() >= static_cast<std::size_t>(machine_.cores)) {
+      waiting_.push_back(task);
+      return;
+    }
+    task.end += now_;
+    running_.push(task);
+  }
+
+  /// A core that is free takes the task that has waited longest.
+  void serve_waiting() {
+    if (waiting_.empty() || running_.size() >= static_cast<std::size_t>(machine_.cores)) return;
+    const Running task = waiting_.front();
+    waiting_.pop_front();
+    run(task);
   }
 
   void finish() {
@@ -112,6 +122,7 @@ class Cluster {
     out_.seconds[id] += ended.seconds;
     const std::size_t node = model_.node(id, rank.graph.stage(ended.task.node));
     send(ended.rank, node, ended.task.round);
+    serve_waiting();
     rank.dispatcher.finish(ended.task, ended.worker, starting_);
     for (const std::uint32_t m : model_.read_by(node)) was_read(m, ended.task.round);
     begin(ended.rank);
@@ -122,7 +133,7 @@ class Cluster {
     for (const Assignment& a : starting_) {
       const SubModelId id = rank.graph.sub_model(a.task.node);
       const double seconds = model_.seconds(id, rank.graph.stage(a.task.node), a.task.round) / machine_.speed;
-      running_.push({work_time_ + delay(rank, a.worker) + seconds, rank_number, a.worker, a.task, seconds});
+      run({delay(rank, a.worker) + seconds, rank_number, a.worker, a.task, seconds});
     }
     starting_.clear();
   }
@@ -184,10 +195,10 @@ class Cluster {
   std::vector<std::unique_ptr<Rank>> ranks_;
   std::vector<Line> lines_;  ///< per message
   std::priority_queue<Running> running_;
+  std::deque<Running> waiting_;  ///< for a core; `end`: seconds it takes
   std::priority_queue<Travelling> travelling_;
   std::vector<Assignment> starting_;  ///< buffer: of one rank
   double now_ = 0;
-  double work_time_ = 0;
   ClusterRun out_;
 };
 

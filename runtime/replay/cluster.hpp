@@ -13,7 +13,7 @@ namespace moraine::runtime {
 struct Machine {
   int ranks = 1;
   int threads = 1;  ///< of each rank
-  int cores = 0;    ///< that all of them share, evenly among the tasks that run; 0: a core for each thread
+  int cores = 0;    ///< that all of them share: a task waits for one, first come first served; 0: one for each thread
   std::string scheduler = "hybrid";
   double latency = 2e-6;    ///< seconds per message between ranks
   double bandwidth = 1e10;  ///< bytes/s that a rank can send; its messages queue

@@ -215,6 +215,7 @@ ReplayOptions as_traced(const Workload& work) {
   ReplayOptions o;
   o.machine.ranks = s.ranks();
   o.machine.threads = s.threads.empty() ? 1 : s.threads.front();
+  o.machine.cores = work.shares_cores() ? std::max(1, static_cast<int>(std::lround(s.all_cores()))) : 0;
   o.machine.scheduler = s.scheduler;
   o.machine.latency = work.overheads.message > 0 ? work.overheads.message : Machine{}.latency;
   o.machine.overheads = work.overheads;

@@ -13,7 +13,14 @@
 namespace moraine::runtime {
 namespace {
 
-double mean(const std::vector<double>& values) {
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+double mean(std::vector<double> values) {
   if (values.empty()) return 0;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -100,7 +107,7 @@ class Reader {
       if (e == nullptr) continue;
       const std::size_t at = static_cast<std::size_t>(t.in_epoch) * out_.nodes() + node(t.sub_model, t.stage);
       if (t.in_epoch < 0 || at >= e->seconds.size()) throw TraceError("the trace has a task outside its epoch");
-      e->seconds[at] = t.seconds();
+      e->seconds[at] = out_.shares_cores() ? static_cast<double>(t.processor) : t.seconds();
       RankEpoch& r = rank_epoch(t.epoch, t.rank);
       r.first_task = r.any_task ? std::min(r.first_task, t.start) : t.start;
       r.last_task = r.any_task ? std::max(r.last_task, t.end) : t.end;
@@ -187,9 +194,11 @@ class Reader {
       }
       before = t;
     }
+    // Where cores are shared, means tell of waiting for a core, which a replay finds out itself.
+    const auto typical = out_.shares_cores() ? median : mean;
     // Clocks of ranks agree to some microseconds only, so a message may seem to arrive before it was sent.
-    out_.overheads = {std::max(0.0, mean(next)), std::max(0.0, mean(wake)),
-                      std::max(0.0, mean(message.empty() ? unnoticed : message))};
+    out_.overheads = {std::max(0.0, typical(next)), std::max(0.0, typical(wake)),
+                      std::max(0.0, typical(message.empty() ? unnoticed : message))};
   }
 
   const Trace& trace_;
@@ -199,6 +208,11 @@ class Reader {
 };
 
 }  // namespace
+
+bool Workload::shares_cores() const {
+  const double cores = settings.all_cores();
+  return cores > 0 && settings.workers() > cores + 0.5;
+}
 
 double Workload::seconds() const {
   double sum = 0;

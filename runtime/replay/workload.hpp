@@ -43,7 +43,8 @@ struct WorkEpoch {
   }
 };
 
-/// What the traced machine spent on a task beside its work, means: what the operating system takes is in them.
+/// What the traced machine spent on a task beside its work, means: what the operating system takes is in them. Medians
+/// where cores were shared.
 struct Overheads {
   double next = 0;  ///< seconds from a task being handed to a worker that has just ended one to its start
   double wake = 0;  ///< the same, to a worker that waited
@@ -62,6 +63,8 @@ struct Workload {
   std::size_t stages() const { return settings.stages.size(); }
   std::size_t nodes() const { return sub_models * stages(); }
   double seconds() const;  ///< of all tasks
+  /// True if the traced run had more workers than cores. Then seconds are those that tasks had a core for.
+  bool shares_cores() const;
 };
 
 /// Of at most `epochs` epochs. Errors: TraceError if the trace holds no complete epoch.

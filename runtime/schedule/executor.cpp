@@ -43,8 +43,8 @@ class Executor::Run {
  public:
   Run(Executor& owner, const StepGraph& graph, const Epoch& epoch, const Work& work, TaskObserver* observer,
       const Poll& poll)
-      : clock_(owner.clock_),
-        processor_time_(owner.processor_time_),
+      : clock_(owner.options_.clock),
+        options_(owner.options_),
         graph_(graph),
         epoch_(epoch),
         work_(work),
@@ -162,13 +162,15 @@ class Executor::Run {
     changed_.notify_all();
   }
 
-  /// More threads than cores must not take turns at looking: after a while without messages the watcher sleeps.
-  static void rest(int vain) {
-    constexpr int before_sleep = 200;
+  /// More threads than cores must not take turns at looking: after a while without messages the watcher sleeps, where
+  /// cores are shared the longer the longer it has waited, by about a tenth of that.
+  void rest(int vain) const {
+    constexpr int before_sleep = 30, shortest = 20, longest = 1000;  // looks, microseconds
+    const int longer = options_.shared_cores ? 5 * (vain - before_sleep) : 0;
     if (vain < before_sleep)
       std::this_thread::yield();
     else
-      std::this_thread::sleep_for(std::chrono::microseconds(20));
+      std::this_thread::sleep_for(std::chrono::microseconds(std::min(longest, shortest + longer)));
   }
 
   /// What messages from elsewhere release. True if anything starts.
@@ -205,15 +207,15 @@ class Executor::Run {
 
   Ended attempt(const InHand& given, int worker) const {
     Ended ended{given, worker, clock_.now(), 0, 0, nullptr};
-    const double before = processor_time_ ? processor_seconds() : 0;
+    const double before = options_.processor_time ? processor_seconds() : 0;
     try {
       work_(given.task, worker);
     } catch (...) {
       ended.error = std::current_exception();
     }
-    ended.processor = processor_time_ ? processor_seconds() - before : 0;
+    ended.processor = options_.processor_time ? processor_seconds() - before : 0;
     ended.end = clock_.now();
-    if (!processor_time_) ended.processor = ended.end - ended.start;
+    if (!options_.processor_time) ended.processor = ended.end - ended.start;
     return ended;
   }
 
@@ -243,6 +245,7 @@ class Executor::Run {
     r.released_stage = by.stage;
     r.release = by.by;
     r.released_before = by.before;
+    r.processor = static_cast<float>(e.processor);
     return r;
   }
 
@@ -276,7 +279,7 @@ class Executor::Run {
   }
 
   const RunClock clock_;
-  const bool processor_time_;
+  const ExecutorOptions& options_;
   const StepGraph& graph_;
   const Epoch epoch_;
   const Work& work_;
@@ -300,8 +303,8 @@ class Executor::Run {
   tbb::task_group group_;
 };
 
-Executor::Executor(int workers, std::unique_ptr<Scheduler> scheduler, RunClock clock, bool processor_time)
-    : workers_(workers), clock_(clock), processor_time_(processor_time), scheduler_(std::move(scheduler)) {
+Executor::Executor(int workers, std::unique_ptr<Scheduler> scheduler, const ExecutorOptions& options)
+    : workers_(workers), options_(options), scheduler_(std::move(scheduler)) {
   if (workers < 1) throw std::invalid_argument("an executor needs at least one worker");
   threads_ = std::make_unique<Threads>(workers);
 }

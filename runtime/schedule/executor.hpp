@@ -14,6 +14,12 @@
 
 namespace moraine::runtime {
 
+struct ExecutorOptions {
+  RunClock clock = {};          ///< what times are told by
+  bool processor_time = false;  ///< a task's processor time is measured too
+  bool shared_cores = false;    ///< there are more threads than cores: those that wait leave them to others
+};
+
 /// Workers are numbered slots that run one task at a time; oneTBB lends them threads. There may be more than cores.
 class Executor {
  public:
@@ -23,9 +29,8 @@ class Executor {
   /// time, often. What it throws ends the run.
   using Poll = std::function<void(std::vector<Arrival>& arrived)>;
 
-  /// `clock`: what times are told by. With `processor_time` a task's processor time is measured too.
   /// Errors: std::invalid_argument if workers < 1.
-  Executor(int workers, std::unique_ptr<Scheduler> scheduler, RunClock clock = {}, bool processor_time = false);
+  Executor(int workers, std::unique_ptr<Scheduler> scheduler, const ExecutorOptions& options = {});
   ~Executor();
 
   int workers() const { return workers_; }
@@ -44,8 +49,7 @@ class Executor {
   struct Threads;
 
   int workers_;
-  RunClock clock_;
-  bool processor_time_;
+  ExecutorOptions options_;
   std::unique_ptr<Scheduler> scheduler_;
   std::unique_ptr<Threads> threads_;
 };

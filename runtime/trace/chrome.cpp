@@ -46,6 +46,7 @@ void each_argument(Record& t, const Function& f) {
   f("bytes_received", t.bytes_received);
   f("counters", t.counters);
   f("stage", t.stage);
+  f("processor", t.processor);
 }
 template <class Record, class Function>
 void each_member(const EpochRecord*, Record& r, const Function& f) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,7 @@ struct TaskRecord {
   std::int16_t released_stage = 0;
   Release release = Release::start;
   bool released_before = false;  ///< the releasing task was of the round before
-  std::uint32_t unused = 0;
+  float processor = 0;           ///< seconds that its thread had a core; all of them where that is not measured
 
   double seconds() const { return end - start; }
 };
@@ -140,6 +141,8 @@ struct TraceSettings {
   std::int64_t every = 1;             ///< of the epochs in there, every so many
 
   int ranks() const { return static_cast<int>(threads.size()); }
+  int workers() const { return std::accumulate(threads.begin(), threads.end(), 0); }
+  double all_cores() const { return std::accumulate(cores.begin(), cores.end(), 0.0); }
 };
 
 /// All records of some epochs. Lists of different ranks stand one behind the other.

@@ -18,7 +18,7 @@ enum class TraceWriter::Kind : std::uint32_t { settings, lists, end };
 namespace {
 
 constexpr char magic[8] = {'M', 'O', 'R', 'T', 'R', 'A', 'C', 'E'};
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 
 struct FileHead {
   char word[8];

@@ -306,6 +306,17 @@ TEST(Workload, ReadsATrace) {
   EXPECT_DOUBLE_EQ(replay(w, on(1, 1, "hybrid")).makespan, 5.5);
 }
 
+TEST(Workload, CountsTimeWithACoreWhereCoresAreShared) {
+  Trace t = traced(2);
+  for (TaskRecord& task : t.lists.tasks) task.processor = 0.75;
+  t.settings.cores = {1};
+  EXPECT_EQ(workload_of(t).epochs[0].seconds, (std::vector<double>{2, 2}));
+  EXPECT_EQ(as_traced(workload_of(t)).machine.cores, 0);
+  t.settings.threads = {3};
+  EXPECT_EQ(workload_of(t).epochs[0].seconds, (std::vector<double>{0.75, 0.75}));
+  EXPECT_EQ(as_traced(workload_of(t)).machine.cores, 1);
+}
+
 TEST(Workload, RefusesTracesThatItCannotReplay) {
   Trace incomplete = traced(2);
   incomplete.lists.tasks.pop_back();

@@ -271,7 +271,7 @@ TEST(Executor, MeasuresProcessorTime) {
   GossipModel model(1, {{"a"}});
   const StepGraph graph = build_step_graph(model);
   for (const bool processor_time : {false, true}) {
-    Executor executor(1, find_scheduler("serial").make(), {}, processor_time);
+    Executor executor(1, find_scheduler("serial").make(), {.processor_time = processor_time});
     const Busy busy =
         executor.run(graph, {0, 5}, [&](Task, int) { std::this_thread::sleep_for(std::chrono::milliseconds(5)); })
             .workers[0];

@@ -105,9 +105,9 @@ TEST_F(TraceFile, IsRefusedIfItIsSomethingElse) {
   write(true);
   std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
   file.seekp(8);
-  file.put('\x02');
+  file.put('\x01');
   file.close();
-  EXPECT_NE(refusal().find("version 2, expected version 1"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("version 1, expected version 2"), std::string::npos) << refusal();
 }
 
 }  // namespace
