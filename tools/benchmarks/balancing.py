@@ -9,12 +9,12 @@ from .runs import common, measure, run, table
 EVERY = ["--balance-every", "12"]
 BADLY_OWNED = EVERY + ["--sub-models", "16", "--set", "run.owners=[13,3]"]
 BALANCE = {
-    "uneven": ("uneven", 2, 300, EVERY),
+    "uneven": ("uneven", 2, 300, ["--balance-every", "4"]),
     "uneven_40": ("uneven", 4, 300, EVERY + ["--set", "heaps=40"]),
     "dam": ("dam", 2, 300, BADLY_OWNED),
     "heap": ("heap", 2, 400, BADLY_OWNED + ["--set", "count=10000"]),
     "deposit": ("deposit", 2, 480, EVERY),
-    "crust_small": ("crust_small", 2, 24, ["--balance-every", "4", "--sub-models", "8"]),
+    "crust_small": ("crust_small", 2, 60, ["--balance-every", "4", "--sub-models", "8"]),
 }
 BALANCED = 1.08
 
