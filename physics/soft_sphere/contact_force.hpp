@@ -2,6 +2,7 @@
 // The force of one contact: spring and dashpot along the normal, spring, dashpot and slider along the surface.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "physics/soft_sphere/contact_law.hpp"
@@ -80,6 +81,12 @@ Push push(const ContactLaw& law, const Meeting& m, double h, Springs& springs) {
   return out;
 }
 
+/// What a tangential spring can give back [J]. While it slips it is stretched against its dashpot as well, by up to as
+/// much as the slip's own energy, and that it does not give back: no more counts than friction can hold.
+inline double held(const Vec3& spring, double stiffness, double limit) {
+  return 0.5 * std::min(stiffness * spring.squaredNorm(), limit * limit / stiffness);
+}
+
 /// Stored in the springs of a contact [J]: k d^2 / 2, or 2/5 of it per a = sqrt(R* d) (Hertz), and what the tangential
 /// springs hold. 0 if the surfaces are apart.
 inline double elastic_energy(const ContactLaws& laws, const ContactLaw& law, double radius, double overlap,
@@ -87,7 +94,9 @@ inline double elastic_energy(const ContactLaws& laws, const ContactLaw& law, dou
   if (overlap <= 0) return 0;
   const double a = laws.hertz() ? std::sqrt(radius * overlap) : 1.0;
   const double normal = (laws.hertz() ? 0.4 : 0.5) * law.stiffness * overlap * overlap;
-  const double side = 0.5 * law.tangential * (springs.sliding.squaredNorm() + springs.rolling.squaredNorm());
+  const double load = law.stiffness * overlap;
+  const double side = held(springs.sliding, law.tangential, law.friction * load) +
+                      held(springs.rolling, law.tangential, law.rolling * load);
   return a * (normal + side);
 }
 

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cases with a known answer, for every engine that can run them, whole and cut. What each measures goes into the table
+// of docs/accuracy.md.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/support/drops.hpp"
+#include "tests/support/model_run.hpp"
+
+namespace moraine::test {
+
+/// How a case is run.
+struct Setting {
+  std::string engine;
+  bool cut = false;  ///< every body a sub-model of its own, at most three
+
+  /// Forces of springs need steps of their own.
+  bool springs() const { return engine == "soft_sphere"; }
+};
+
+struct Case {
+  const char* name;
+  const char* answer;  ///< what is compared with what, and where that is from
+  double (*error)(const Setting&);
+  double tolerance;          ///< of engines that solve for impulses
+  double tolerance_springs;  ///< of engines with springs
+  bool boxes = false;        ///< needs shapes other than spheres
+  bool bonds = false;
+};
+
+std::vector<Case> one_body();
+std::vector<Case> two_bodies();
+std::vector<Case> bonded();
+std::vector<Case> many_bodies();
+std::vector<Case> orders();
+
+/// Reads a scene for a setting: its engine, its cut, and steps of `dt` [s] or of a part of the engine's limit if that
+/// is shorter.
+ModelRun trial(const Setting& setting, const std::string& text, double dt, std::vector<Override> overrides = {},
+               double part_of_limit = 0.1);
+
+/// A material for spheres(), with a stiffness for engines that have one: half a swing of two takes 2 ms.
+std::string ball(const Setting& setting, const std::string& material);
+
+/// Steps until `seconds` of the run have passed.
+void run_until(ModelRun& run, double seconds);
+
+}  // namespace moraine::test

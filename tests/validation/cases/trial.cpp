@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "tests/validation/cases/case.hpp"
+
+namespace moraine::test {
+
+ModelRun trial(const Setting& setting, const std::string& text, double dt, std::vector<Override> overrides,
+               double part_of_limit) {
+  overrides.push_back(set("run.engine", setting.engine));
+  const Scene as_written = scene_of(text, overrides);
+  const std::size_t parts = setting.cut ? std::min<std::size_t>(3, as_written.elements.size()) : 1;
+  const StepLimit limit = find_engine(setting.engine).step_limit(as_written);
+  overrides.push_back(set("time.dt", std::min(dt, part_of_limit * limit.substep)));
+  overrides.push_back(set("run.sub_models", static_cast<double>(parts)));
+  overrides.push_back(set("run.split", "slabs"));
+  return ModelRun(scene_of(text, overrides));
+}
+
+std::string ball(const Setting& setting, const std::string& material) {
+  return setting.springs() ? material + ", normal_stiffness: 1e6" : material;
+}
+
+void run_until(ModelRun& run, double seconds) {
+  run.steps(std::max(0L, std::lround((seconds - run.time()) / run.scene().time.dt)));
+}
+
+}  // namespace moraine::test

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every case x every engine that can run it x whole and cut. Each leaves a row for the table in docs/accuracy.md.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "tests/validation/cases/case.hpp"
+
+namespace moraine {
+namespace {
+
+using test::Case;
+using test::Setting;
+
+/// A case that is not met, by how much at most, and why.
+struct Miss {
+  std::string_view name, engine;  ///< "": all
+  bool cut;
+  double at_most;
+  std::string_view cause;
+};
+
+constexpr std::string_view shared = "a body that is shared meets others with a part of its mass";
+constexpr std::string_view pyramid = "ODE's friction is a pyramid: right along its sides, wrong at 45°";
+constexpr std::string_view implicit = "ODE integrates bonds implicitly, which damps them";
+constexpr std::string_view turning =
+    "a turn per substep is taken with the inertia at its start: first order in the step";
+constexpr std::string_view next_step = "found too long after a step, it breaks in the next one";
+
+constexpr Miss misses[] = {
+    {"S2 bounce", "bullet", true, 0.5, shared},
+    {"S2 bounce", "bullet64", true, 0.5, shared},
+    {"S2 bounce", "impulse", true, 0.3, shared},
+    {"S2 bounce", "ode", true, 0.2, shared},
+    {"S2 small bounce", "bullet", true, 0.3, shared},
+    {"S2 small bounce", "bullet64", true, 0.3, shared},
+    {"S2 small bounce", "impulse", true, 0.25, shared},
+    {"S2 small bounce", "ode", true, 0.15, shared},
+    {"S2 small bounce", "soft_sphere", false, 0.06, "its weight presses on the spring while the contact lasts"},
+    {"S2 small bounce", "soft_sphere", true, 0.06, "its weight presses on the spring while the contact lasts"},
+    {"S3 block slides", "ode", false, 0.5, pyramid},
+    {"S3 block slides", "ode", true, 0.5, pyramid},
+    {"S3 block sticks", "ode", false, 0.35, pyramid},
+    {"S3 block sticks", "ode", true, 0.35, pyramid},
+    {"S6 top", "", false, 0.03, turning},
+    {"S6 top", "", true, 0.03, turning},
+    {"T1 head-on, restitution", "bullet", true, 0.35, shared},
+    {"T1 head-on, restitution", "bullet64", true, 0.5, shared},
+    {"T1 head-on, restitution", "impulse", true, 0.25, shared},
+    {"T1 head-on, restitution", "ode", true, 0.7, shared},
+    {"T2 oblique, speeds", "bullet", true, 0.3, shared},
+    {"T2 oblique, speeds", "bullet64", true, 0.3, shared},
+    {"T2 oblique, speeds", "impulse", true, 0.15, shared},
+    {"T2 oblique, speeds", "ode", true, 0.65, shared},
+    {"B1 pair, energy", "ode", false, 1, implicit},
+    {"B1 pair, energy", "ode", true, 1, implicit},
+    {"B1 pair, damping", "ode", false, 0.2, implicit},
+    {"B1 pair, damping", "ode", true, 0.2, implicit},
+    {"B2 pair breaks", "bullet", false, 2.01, next_step},
+    {"B2 pair breaks", "bullet", true, 2.01, next_step},
+    {"B2 pair breaks", "bullet64", false, 2.01, next_step},
+    {"B2 pair breaks", "bullet64", true, 2.01, next_step},
+    {"B2 pair breaks", "impulse", false, 2.01, next_step},
+    {"B2 pair breaks", "impulse", true, 2.01, next_step},
+    {"B2 pair breaks", "ode", false, 2.01, next_step},
+    {"B2 pair breaks", "ode", true, 2.01, next_step},
+};
+
+struct Trial {
+  Case what;
+  Setting how;
+  double tolerance() const { return how.springs() ? what.tolerance_springs : what.tolerance; }
+  std::string name() const { return fmt::format("{} {} {}", what.name, how.engine, how.cut ? "cut" : "whole"); }
+};
+void PrintTo(const Trial& trial, std::ostream* out) { *out << trial.name(); }
+
+const Miss* miss_of(const Trial& t) {
+  for (const Miss& m : misses)
+    if (m.name == t.what.name && (m.engine.empty() || m.engine == t.how.engine) && m.cut == t.how.cut) return &m;
+  return nullptr;
+}
+
+/// Appended to the file that MORAINE_KNOWN_ANSWERS names.
+void record(const Trial& t, double error, const Miss* miss) {
+  if (const char* file = std::getenv("MORAINE_KNOWN_ANSWERS"))
+    std::ofstream(file, std::ios::app) << fmt::format("{}|{}|{:g}|{}|{}|{:.2g}|{}\n", t.what.name, t.what.answer,
+                                                      t.tolerance(), t.how.engine, t.how.cut ? "cut" : "whole", error,
+                                                      miss ? miss->cause : "");
+}
+
+class KnownAnswer : public testing::TestWithParam<Trial> {};
+
+TEST_P(KnownAnswer, IsFound) {
+  const Trial& t = GetParam();
+  const double error = t.what.error(t.how);
+  const Miss* miss = miss_of(t);
+  record(t, error, miss);
+  if (!miss) {
+    EXPECT_LE(error, t.tolerance()) << t.what.answer;
+    return;
+  }
+  EXPECT_LE(error, miss->at_most) << "was missed by less: " << miss->cause;
+  EXPECT_GT(error, t.tolerance()) << "is met now: no longer a miss";
+}
+
+std::vector<Trial> all_trials() {
+  std::vector<Trial> out;
+  for (const std::vector<Case>& some :
+       {test::one_body(), test::two_bodies(), test::bonded(), test::many_bodies(), test::orders()})
+    for (const Case& c : some)
+      for (const Engine& e : engines())
+        for (const bool cut : {false, true})
+          if ((!c.boxes || e.supports(Geometry{Cuboid{}})) && (!c.bonds || e.bonds))
+            out.push_back({c, {std::string(e.name), cut}});
+  return out;
+}
+
+std::string name_of(const testing::TestParamInfo<Trial>& trial) {
+  std::string name = trial.param.name();
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char letter) { return std::isalnum(letter) == 0; }, '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, KnownAnswer, testing::ValuesIn(all_trials()), name_of);
+
+}  // namespace
+}  // namespace moraine

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests that leave rows of figures, and pages with tables of them."""
+import os
+import subprocess
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+MARK = "<!-- tables -->"
+
+
+def rows_of(build, choice, variable):
+    """Runs the chosen tests; returns their status and the lines they left in the file that the variable names."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "rows")
+        open(path, "w").close()
+        result = subprocess.run(["ctest", "--test-dir", build, *choice, "--no-tests=error", "-j1", "-Q"],
+                                env={**os.environ, variable: path})
+        with open(path) as f:
+            return result.returncode, [line.rstrip("\n") for line in f]
+
+
+def write_tables(page, text):
+    """Replaces all that is below the mark."""
+    path = os.path.join(ROOT, "docs", page)
+    with open(path) as f:
+        head = f.read().split(MARK)[0]
+    with open(path, "w") as f:
+        f.write(head + MARK + "\n" + text)
