@@ -9,6 +9,12 @@
 
 namespace moraine::impulse {
 
+/// The first number of a list of vectors; none if that is empty.
+template <class Vectors>
+auto* numbers_of(Vectors& vectors) {
+  return vectors.empty() ? nullptr : vectors.front().data();
+}
+
 using native::nowhere;
 using native::Place;
 

@@ -142,14 +142,14 @@ void PairContacts::restore(std::span<const PairRow> rows) {
 
 BodyArrays PairContacts::arrays(Bodies& bodies) {
   return {bodies.moving.data()->velocity.data(),
-          bodies.position.data()->data(),
+          numbers_of(bodies.position),
           bodies.material.data(),
           bodies.ghost.data(),
           bodies.whole.data(),
-          bodies.before.data()->data()};
+          numbers_of(bodies.before)};
 }
 
-PairTable PairContacts::table() { return {pairs_.lower(), pairs_.higher(), pairs_.size(), carried_.data()->data()}; }
+PairTable PairContacts::table() { return {pairs_.lower(), pairs_.higher(), pairs_.size(), numbers_of(carried_)}; }
 
 void PairContacts::find(Bodies& bodies) {
   std::swap(meeting_, met_);
@@ -212,8 +212,8 @@ void PairContacts::start_group(Bodies& bodies) {
 }
 
 PairTask PairContacts::task(Bodies& bodies) {
-  return {arrays(bodies), batches_.data(),        batch_count_, rule_.numbers().impulse_scale,
-          features(),     carried_.data()->data()};
+  return {arrays(bodies), batches_.data(),     batch_count_, rule_.numbers().impulse_scale,
+          features(),     numbers_of(carried_)};
 }
 
 void PairContacts::relax(Bodies& bodies) {
