@@ -36,6 +36,13 @@ std::uint32_t element_index(const Scene& scene, ElementId id) {
   return static_cast<std::uint32_t>(at - scene.elements.begin());
 }
 
+std::vector<ElementState> states_of(const Scene& scene) {
+  std::vector<ElementState> states;
+  states.reserve(scene.elements.size());
+  for (const Element& e : scene.elements) states.push_back(e.state);
+  return states;
+}
+
 /// Blocks of as many sub-models as the scene says. Errors: InputError unless they are all there are.
 runtime::Owners stated_placement(const std::vector<int>& counts, std::size_t parts, int ranks) {
   const auto stated = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
@@ -104,9 +111,7 @@ CoupledModel::CoupledModel(const Scene& scene, runtime::Transport& transport) : 
   check_engine(scene, *context_.engine);
   parts_ = part_count(scene, *context_.engine, context_.world.limits);
   split_ = &find_split(scene.run.split, scene, parts_);
-  std::vector<ElementState> states;
-  for (const Element& e : scene.elements) states.push_back(e.state);
-  cut(states, {});
+  cut(states_of(scene), {});
   for (const Report& r : reports()) accounts_.opening += r.ledger;
 }
 
@@ -116,6 +121,7 @@ CoupledModel::~CoupledModel() = default;
 /// whenever membership is cut again.
 void CoupledModel::cut(std::span<const ElementState> states, std::span<const ContactMemory> memory) {
   std::vector<Vec3> positions;
+  positions.reserve(states.size());
   for (const ElementState& s : states) positions.push_back(s.pose.position);
   std::vector<std::uint32_t> alive = alive_bonds();
   owners_ = split_->split({positions, scene().gravity, parts_});
@@ -132,6 +138,7 @@ void CoupledModel::cut(std::span<const ElementState> states, std::span<const Con
   for (SubModelId id = 0; id < parts_; ++id) {
     if (!placement().holds(id)) continue;
     std::vector<ElementState> own;
+    own.reserve(members[id].size());
     for (const std::uint32_t e : members[id]) own.push_back(states[e]);
     sub_models_[id] = std::make_unique<SubModel>(context_, id, std::move(members[id]), own, bonds[id], remembered[id]);
   }
@@ -308,7 +315,16 @@ void CoupledModel::settle_neighbours(const std::vector<Report>& reports) {
   }
 }
 
+/// All states, where one rank has them all.
+std::vector<ElementState> CoupledModel::own_states() const {
+  std::vector<ElementState> out(owners_.size());
+  for (const auto& part : sub_models_)
+    for (std::size_t i = 0; i < part->members().size(); ++i) out[part->members()[i]] = part->state(i);
+  return out;
+}
+
 std::vector<ElementState> CoupledModel::states(std::optional<int> root) const {
+  if (transport_.ranks() == 1) return own_states();
   const std::vector<runtime::Bytes> told = collect(
       *this, transport_,
       [&](SubModelId id) {
@@ -323,6 +339,7 @@ std::vector<ElementState> CoupledModel::states(std::optional<int> root) const {
       root);
   std::vector<ElementState> out;
   if (told.empty()) return out;
+  out.reserve(owners_.size());
   std::vector<ByteReader> readers(told.begin(), told.end());
   for (const SubModelId owner : owners_) fields::all(readers[owner], out.emplace_back());
   return out;
@@ -342,13 +359,12 @@ OverlapStatistics CoupledModel::overlaps() const {
   };
   const auto told = collect(*this, transport_, [&](SubModelId id) {
     Sums own;
-    for (const Contact& c : sub_models_[id]->world().contacts()) {
+    sub_models_[id]->world().each_contact([&](const Contact& c) {
       // Both sides know a contact across a cut if ghosts are followers.
-      if (context_.followers() && owners_[element_index(scene(), c.a)] != id) continue;
+      if (context_.followers() && owners_[element_index(scene(), c.a)] != id) return;
       const double overlap = c.overlap / context_.world.length_unit;
-      if (overlap <= 0) continue;
-      own = {std::max(own.max, overlap), own.sum + overlap, own.count + 1};
-    }
+      if (overlap > 0) own = {std::max(own.max, overlap), own.sum + overlap, own.count + 1};
+    });
     runtime::Bytes out;
     ByteWriter(out).put(own);
     return out;

@@ -72,6 +72,7 @@ class CoupledModel : public runtime::Model {
   OverlapStatistics overlaps() const;
 
  private:
+  std::vector<ElementState> own_states() const;
   void cut(std::span<const ElementState> states, std::span<const ContactMemory> memory);
   std::vector<ContactMemory> contact_memory() const;
   std::vector<std::vector<ContactMemory>> by_part(std::span<const ContactMemory> memory) const;

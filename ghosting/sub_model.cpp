@@ -41,6 +41,8 @@ SubModel::SubModel(const ModelContext& context, SubModelId id, std::vector<std::
       members_(std::move(members)),
       shared_index_(members_.size(), -1),
       world_(context.engine->make(context.world, origin_)) {
+  for (auto* v : {&radius_, &mass_}) v->reserve(members_.size());
+  slots_.reserve(members_.size());
   for (std::size_t i = 0; i < members_.size(); ++i) {
     slots_.push_back(world_->add(body(context_, members_[i], states[i])));
     radius_.push_back(context_.radius(members_[i]));

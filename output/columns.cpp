@@ -79,22 +79,21 @@ Column position_column(const Frame::Bodies& bodies) {
 
 std::vector<Column> body_columns(const Scene& scene, const Frame::Bodies& bodies) {
   const std::size_t n = bodies.size();
-  return {
-      {"id", 1, bodies.id},
-      {"sub_model", 1, bodies.sub_model},
-      {"shape", 1, bodies.shape},
-      column_of<std::uint8_t>("shape_kind", 1, n,
-                              [&](auto& values, std::size_t i) {
-                                const auto kind = scene.shapes[bodies.shape[i]].geometry.index();
-                                values.push_back(static_cast<std::uint8_t>(kind));
-                              }),
-      column_of<double>(
-          "radius", 1, n,
-          [&](auto& values, std::size_t i) { values.push_back(scene.shapes[bodies.shape[i]].bounding_radius); }),
-      orientation_column(bodies),
-      vector_column("velocity", bodies, [](const ElementState& s) -> const Vec3& { return s.twist.linear; }),
-      vector_column("angular_velocity", bodies, [](const ElementState& s) -> const Vec3& { return s.twist.angular; }),
-  };
+  std::vector<Column> out;  // an initializer list would hold a copy of all of it
+  out.push_back({"id", 1, bodies.id});
+  out.push_back({"sub_model", 1, bodies.sub_model});
+  out.push_back({"shape", 1, bodies.shape});
+  out.push_back(column_of<std::uint8_t>("shape_kind", 1, n, [&](auto& values, std::size_t i) {
+    values.push_back(static_cast<std::uint8_t>(scene.shapes[bodies.shape[i]].geometry.index()));
+  }));
+  out.push_back(column_of<double>("radius", 1, n, [&](auto& values, std::size_t i) {
+    values.push_back(scene.shapes[bodies.shape[i]].bounding_radius);
+  }));
+  out.push_back(orientation_column(bodies));
+  out.push_back(vector_column("velocity", bodies, [](const ElementState& s) -> const Vec3& { return s.twist.linear; }));
+  out.push_back(vector_column("angular_velocity", bodies,
+                              [](const ElementState& s) -> const Vec3& { return s.twist.angular; }));
+  return out;
 }
 
 template <class T>

@@ -14,6 +14,10 @@ void World::motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) c
   }
 }
 
+void World::each_contact(const std::function<void(const Contact&)>& visit) const {
+  for (const Contact& c : contacts()) visit(c);
+}
+
 void World::add_bond(std::uint32_t, Slot, Slot) { throw InputError("this engine has no bonds"); }
 
 }  // namespace moraine

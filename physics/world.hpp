@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -142,6 +143,8 @@ class World {
   virtual double contact_energy() const { return 0; }
   /// Contacts of the last step, ascending (a, b). Cost: linear in contacts; not for every step.
   virtual std::vector<Contact> contacts() const = 0;
+  /// Calls visit for each of them, in an order that does not depend on anything unsaved.
+  virtual void each_contact(const std::function<void(const Contact&)>& visit) const;
   virtual StepWork work() const = 0;
 
   /// What the contacts of this world's bodies remember, ghosts' included; nothing if the engine's contacts remember

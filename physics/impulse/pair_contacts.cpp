@@ -11,19 +11,6 @@ static_assert(sizeof(PairRow) == 48);
 
 std::uint64_t key(Place a, Place b) { return std::uint64_t{a} << 32 | b; }
 
-PairRow row_of(const PairBatch& from, std::size_t lane) {
-  PairRow row;
-  row.a = from.a[lane];
-  row.b = from.b[lane];
-  row.push = from.push[lane];
-  row.rebound = from.rebound[lane];
-  for (int axis = 0; axis < 3; ++axis) {
-    row.normal[axis] = from.normal[axis][lane];
-    row.side[axis] = from.side[axis][lane];
-  }
-  return row;
-}
-
 void put(const PairRow& row, std::uint32_t pair, PairBatch& to, std::size_t lane) {
   to.a[lane] = row.a;
   to.b[lane] = row.b;
@@ -116,12 +103,38 @@ void PairContacts::drop_list() {
 
 std::vector<PairRow> PairContacts::rows() const {
   std::vector<PairRow> out;
-  for (std::size_t k = 0; k < batch_count_; ++k)
-    for (std::size_t lane = 0; lane < batch_lanes; ++lane)
-      if (!spare(batches_[k], lane)) out.push_back(row_of(batches_[k], lane));
-  std::erase_if(out, [](const PairRow& r) { return r.a == nowhere || r.b == nowhere; });
-  std::sort(out.begin(), out.end(), [](auto& p, auto& q) { return key(p.a, p.b) < key(q.a, q.b); });
+  out.reserve(batch_count_ * batch_lanes);
+  each_row([&](const PairRow& r) { out.push_back(r); });
   return out;
+}
+
+/// Where the contacts are in the batches, in the order of the list.
+std::vector<std::uint32_t> PairContacts::lanes() const {
+  std::vector<std::uint32_t> out;
+  out.reserve(batch_count_ * batch_lanes);
+  for (std::uint32_t at = 0; at < batch_count_ * batch_lanes; ++at) {
+    const PairBatch& batch = batches_[at / batch_lanes];
+    const std::size_t lane = at % batch_lanes;
+    if (!spare(batch, lane) && batch.a[lane] != nowhere && batch.b[lane] != nowhere) out.push_back(at);
+  }
+  const auto pair = [&](std::uint32_t at) { return batches_[at / batch_lanes].pair[at % batch_lanes]; };
+  std::sort(out.begin(), out.end(), [&](std::uint32_t p, std::uint32_t q) { return pair(p) < pair(q); });
+  return out;
+}
+
+PairRow PairContacts::row(std::uint32_t at) const {
+  const PairBatch& from = batches_[at / batch_lanes];
+  const std::size_t lane = at % batch_lanes;
+  PairRow row;
+  row.a = from.a[lane];
+  row.b = from.b[lane];
+  row.push = from.push[lane];
+  row.rebound = from.rebound[lane];
+  for (int axis = 0; axis < 3; ++axis) {
+    row.normal[axis] = from.normal[axis][lane];
+    row.side[axis] = from.side[axis][lane];
+  }
+  return row;
 }
 
 void PairContacts::restore(std::span<const PairRow> rows) {
@@ -167,6 +180,7 @@ void PairContacts::find(Bodies& bodies) {
 void PairContacts::start(Bodies& bodies) {
   taken_.assign(bodies.size(), {});
   batch_count_ = 0;
+  make_room(meeting_.count / batch_lanes);
   const std::span<const std::uint32_t> all = meeting_.all();
   for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
     const ElementId group = group_of(bodies, all[begin]);
@@ -174,6 +188,13 @@ void PairContacts::start(Bodies& bodies) {
     choose_colours(all.subspan(begin, end - begin), static_cast<std::uint32_t>(begin) + 1);
     start_group(bodies);
   }
+}
+
+/// For full batches, and as many more as those that are not full come to. Old ones go first: there are never two sets.
+void PairContacts::make_room(std::size_t full) {
+  if (batches_.capacity() >= full) return;
+  std::vector<PairBatch>().swap(batches_);
+  batches_.reserve(full + full / 4);
 }
 
 ElementId PairContacts::group_of(const Bodies& bodies, std::uint32_t pair) const {
@@ -201,7 +222,8 @@ void PairContacts::choose_colours(std::span<const std::uint32_t> pairs, std::uin
 void PairContacts::start_group(Bodies& bodies) {
   std::size_t most = batch_count_ + coloured_[crowded].count;
   for (std::size_t c = 0; c < crowded; ++c) most += (coloured_[c].count + batch_lanes - 1) / batch_lanes;
-  if (batches_.size() < most) batches_.resize(most + most / 8);
+  if (batches_.capacity() < most) batches_.reserve(most + most / 8);
+  if (batches_.size() < most) batches_.resize(most);
   const auto fill = [&](std::span<const std::uint32_t> pairs) {
     kernels_.start({arrays(bodies), table(), rule_.numbers(), laws(), features(), pairs.data(), pairs.size(),
                     batches_.data() + batch_count_});

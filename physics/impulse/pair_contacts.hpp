@@ -46,6 +46,10 @@ class PairContacts {
   std::size_t count() const { return meeting_.count; }
   /// Of the last step, ascending (a, b).
   std::vector<PairRow> rows() const;
+  template <class Visit>
+  void each_row(Visit&& visit) const {
+    for (const std::uint32_t lane : lanes()) visit(row(lane));
+  }
   void restore(std::span<const PairRow> rows);
 
  private:
@@ -71,12 +75,15 @@ class PairContacts {
   /// Contacts of the last colour may share bodies, and are solved one by one.
   static constexpr std::size_t colours = 32, crowded = colours - 1;
 
+  std::vector<std::uint32_t> lanes() const;
+  PairRow row(std::uint32_t lane) const;
   static BodyArrays arrays(Bodies& bodies);
   PairTable table();
   PairFeatures features() const { return {rule_.friction, rule_.restitution}; }
   PairLaws laws() const { return {rule_.constants().data(), rule_.materials()}; }
   PairTask task(Bodies& bodies);
   ElementId group_of(const Bodies& bodies, std::uint32_t pair) const;
+  void make_room(std::size_t full);
   void choose_colours(std::span<const std::uint32_t> pairs, std::uint32_t group);
   void start_group(Bodies& bodies);
   void follow_list(std::span<const Place> moved);

@@ -147,15 +147,21 @@ float ImpulseWorld::suitable_skin() const {
 
 void ImpulseWorld::list_anew() {
   skin_ = suitable_skin();
-  balls_.resize(bodies_.size());
-  for (Place p = 0; p < bodies_.size(); ++p)
-    balls_[p] = {units_.position(bodies_.position[p]), units_.length * static_cast<double>(bodies_.radius(p))};
-  const double skin = static_cast<double>(skin_) * units_.length;
-  grid_.build(balls_, skin);
+  list_walls();
   pairs_.list(bodies_, skin_);
-  walls_.list(grid_, balls_, bodies_.ghost, skin);
   listed_at_ = bodies_.position;
   listed_ = true;
+}
+
+/// Grid and balls are as large as the bodies themselves, so they are not kept.
+void ImpulseWorld::list_walls() {
+  std::vector<native::Ball> balls(bodies_.size());
+  for (Place p = 0; p < bodies_.size(); ++p)
+    balls[p] = {units_.position(bodies_.position[p]), units_.length * static_cast<double>(bodies_.radius(p))};
+  const double skin = static_cast<double>(skin_) * units_.length;
+  native::SizedGrid grid;
+  grid.build(balls, skin);
+  walls_.list(grid, balls, bodies_.ghost, skin);
 }
 
 Contact ImpulseWorld::contact(const PairRow& row) const {
@@ -186,12 +192,19 @@ Contact ImpulseWorld::contact(const WallRow& row) const {
 
 std::vector<Contact> ImpulseWorld::contacts() const {
   std::vector<Contact> out;
-  if (bodies_.roster.unsettled()) return out;
-  for (const PairRow& row : pairs_.rows()) out.push_back(contact(row));
-  for (const WallRow& row : walls_.rows()) out.push_back(contact(row));
-  std::erase_if(out, [](const Contact& c) { return c.overlap <= 0 && c.impulse.isZero(0); });
+  each_contact([&](const Contact& c) { out.push_back(c); });
   std::stable_sort(out.begin(), out.end(), earlier);
   return out;
+}
+
+void ImpulseWorld::each_contact(const std::function<void(const Contact&)>& visit) const {
+  if (bodies_.roster.unsettled()) return;
+  const auto look_at = [&](const auto& row) {
+    const Contact c = contact(row);
+    if (c.overlap > 0 || !c.impulse.isZero(0)) visit(c);
+  };
+  pairs_.each_row(look_at);
+  for (const WallRow& row : walls_.rows()) look_at(row);
 }
 
 StepWork ImpulseWorld::work() const {

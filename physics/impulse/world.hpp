@@ -36,6 +36,8 @@ class ImpulseWorld final : public World {
   Impulse boundary_impulse() const override { return walls_.impulse(); }
   double boundary_work() const override { return walls_.work(); }
   std::vector<Contact> contacts() const override;
+  /// Pairs, then boundaries: without a list of all, which would be larger than the world.
+  void each_contact(const std::function<void(const Contact&)>& visit) const override;
   StepWork work() const override;
 
   void canonicalise() override { settle(); }
@@ -48,6 +50,7 @@ class ImpulseWorld final : public World {
   void drop_lists();
   bool moved_too_far() const;
   void list_anew();
+  void list_walls();
   float suitable_skin() const;
   void gather();
   void warm_start();
@@ -65,8 +68,6 @@ class ImpulseWorld final : public World {
   Bonds bonds_;
   bool turns_ = false;  ///< some body may turn
 
-  native::SizedGrid grid_;
-  std::vector<native::Ball> balls_;  ///< of the last listing, world frame [m]
   std::vector<Vec> listed_at_;       ///< positions to which lists refer
   std::vector<Place> newcomers_;
   float skin_ = 0;  ///< of the lists

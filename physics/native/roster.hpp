@@ -2,6 +2,7 @@
 // Who is in a world and where: slots for the outside, places in compact arrays, ascending by id, for the inside.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <utility>
 #include <vector>
@@ -63,6 +64,7 @@ class Roster {
 /// Puts values that stood at the old places `order` in this order. Buffers are kept by the thread.
 template <class T>
 void reorder(std::vector<T>& values, std::span<const Place> order) {
+  if (values.size() == order.size() && std::is_sorted(order.begin(), order.end())) return;
   thread_local std::vector<T> sorted;
   sorted.clear();
   for (const Place p : order) sorted.push_back(values[p]);
