@@ -84,7 +84,7 @@ void BackgroundWriter::write(Frame frame) {
   if (scene_.output.pictures && !last_) {
     write_picture(scene_, frame, folder_ / "first.png", scene_.output.picture_width);
   }
-  last_ = std::move(frame);
+  if (scene_.output.pictures) last_ = std::move(frame);
 }
 
 void BackgroundWriter::close() {

@@ -28,10 +28,14 @@ class CsvWriter : public Writer {
     make_folder(folder_);
   }
   void write(const Frame& frame) override {
-    std::string text = kHeader;
-    for (std::size_t i = 0; i < frame.elements.size(); ++i) append_row(text, scene_, frame.elements, i);
     OutputFile file(folder_ / frame_name("elements", frame.step, "csv"));
-    file.write(text);
+    file.write(kHeader);
+    std::string row;
+    for (std::size_t i = 0; i < frame.elements.size(); ++i) {
+      row.clear();
+      append_row(row, scene_, frame.elements, i);
+      file.write(row);
+    }
     file.close();
   }
 

@@ -74,9 +74,13 @@ class LammpsDumpWriter : public Writer {
       : scene_(scene), path_(folder / "dump.lammpstrj"), has_more_(goes_on(scene, path_)), file_(path_, has_more_) {}
   void write(const Frame& frame) override {
     if (std::exchange(has_more_, false)) std::filesystem::resize_file(path_, length_before(path_, frame.step));
-    std::string text = header(frame, bounds_of(scene_, frame.elements));
-    for (std::size_t i = 0; i < frame.elements.size(); ++i) append_atom(text, scene_, frame.elements, i);
-    file_.write(text);
+    file_.write(header(frame, bounds_of(scene_, frame.elements)));
+    std::string row;
+    for (std::size_t i = 0; i < frame.elements.size(); ++i) {
+      row.clear();
+      append_atom(row, scene_, frame.elements, i);
+      file_.write(row);
+    }
     file_.flush();
   }
   void finish() override { file_.close(); }
