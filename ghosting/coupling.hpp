@@ -43,7 +43,7 @@ struct SharedElement {
 struct CouplingContext {
   SubModelId owner = 0;
   Vec3 gravity_step = Vec3::Zero();  ///< velocity that gravity adds in a substep [m/s]
-  double leak = 0.85;                ///< RunSettings::coupling_leak
+  double leak = 0;                   ///< RunSettings::coupling_leak
 };
 
 /// Contract. Pure functions of their arguments; sums run over the copies in the order given (ascending world).

@@ -57,7 +57,7 @@ void SubModel::combine(SharedElement& shared) {
   copy_motions_.clear();
   if (!context_.followers()) collect_motions(shared);
   const CouplingContext context{id_, context_.scene->gravity * context_.world.substep,
-                                context_.scene->run.coupling_leak};
+                                context_.scene->run.coupling_leak.value_or(context_.engine->coupling_leak)};
   disagreement_ += context_.coupling->combine(shared, copy_motions_, context);
   disagreements_ += shared.copies.size();
   motions_[shared.member] = {shared.state.pose.position, shared.state.twist};

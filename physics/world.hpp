@@ -184,6 +184,8 @@ struct Engine {
   double (*relative_cost)(double bodies);
   std::unique_ptr<World> (*make)(const WorldSettings&, const Vec3& origin);
   GhostKind ghosts = GhostKind::partner;
+  /// Part of what copies carry that survives a substep, unless a scene states it: as much as stays at rest.
+  double coupling_leak = 0.85;
   bool bonds = true;  ///< it can do them; scenes with bonds are refused otherwise
   /// When in a substep forces act, 0 .. 1: 0 at its start (semi-implicit Euler), 0.5 in the middle (Verlet).
   double force_time = 0;

@@ -27,6 +27,7 @@ Engine engine() {
           .supports = supports,
           .relative_cost = relative_cost,
           .make = make,
+          .coupling_leak = 0.98,
           .advised_step = impulse_step_advice};
 }
 

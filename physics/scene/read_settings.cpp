@@ -105,7 +105,7 @@ void read_run(const Node& root, RunSettings& run) {
   run.sub_models = read_sub_models(*node);
   run.split = node->text("split", run.split);
   run.coupling = node->text("coupling", run.coupling);
-  run.coupling_leak = read_fraction(*node, "coupling_leak", run.coupling_leak);
+  if (const auto leak = node->find("coupling_leak")) run.coupling_leak = leak->within(0, 1);
   run.skin = node->not_negative("skin", run.skin);
   run.recut_ghost_share = node->not_negative("recut_ghost_share", run.recut_ghost_share);
   run.iterations = read_int(*node, "iterations", run.iterations, 1);
