@@ -91,8 +91,8 @@ std::vector<Column> body_columns(const Scene& scene, const Frame::Bodies& bodies
   }));
   out.push_back(orientation_column(bodies));
   out.push_back(vector_column("velocity", bodies, [](const ElementState& s) -> const Vec3& { return s.twist.linear; }));
-  out.push_back(vector_column("angular_velocity", bodies,
-                              [](const ElementState& s) -> const Vec3& { return s.twist.angular; }));
+  out.push_back(
+      vector_column("angular_velocity", bodies, [](const ElementState& s) -> const Vec3& { return s.twist.angular; }));
   return out;
 }
 

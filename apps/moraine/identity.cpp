@@ -54,7 +54,8 @@ void put(ByteWriter& w, const PairLaw& law) {
 
 void put(ByteWriter& w, const RunSettings& r) {
   for (const std::string* text : {&r.engine_profile, &r.split, &r.coupling}) put(w, *text);
-  for (const double x : {r.coupling_leak.value_or(-1), r.skin, r.recut_ghost_share, r.overlap_recovery, r.max_speed}) w.put(x);
+  for (const double x : {r.coupling_leak.value_or(-1), r.skin, r.recut_ghost_share, r.overlap_recovery, r.max_speed})
+    w.put(x);
   w.put(r.sub_models);
   w.put(r.iterations);
 }

@@ -12,8 +12,8 @@ namespace {
 
 bool supports(const Geometry& geometry) { return std::holds_alternative<Sphere>(geometry); }
 
-/// Shape of the measured curve of cost per body against bodies per world; see docs/engines.md. Small worlds have more to
-/// tell than to compute, large ones leave the processor's caches.
+/// Shape of the measured curve of cost per body against bodies per world; see docs/engines.md. Small worlds have more
+/// to tell than to compute, large ones leave the processor's caches.
 double relative_cost(double bodies) {
   const double decades = std::log10(std::max(bodies, 1.0) / 1e4);
   return 1 + 0.2 * std::clamp(decades, 0.0, 1.0) + 0.09 * std::max(decades - 1, 0.0) +

@@ -68,7 +68,7 @@ class ImpulseWorld final : public World {
   Bonds bonds_;
   bool turns_ = false;  ///< some body may turn
 
-  std::vector<Vec> listed_at_;       ///< positions to which lists refer
+  std::vector<Vec> listed_at_;  ///< positions to which lists refer
   std::vector<Place> newcomers_;
   float skin_ = 0;  ///< of the lists
   bool listed_ = false;

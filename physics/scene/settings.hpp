@@ -26,8 +26,9 @@ struct RunSettings {
   int sub_models = 0;                      ///< 0: auto, from measured engine cost and ghost share
   std::string split = "auto";
   std::string coupling = "auto";  ///< auto: the first that fits the engine
-  std::optional<double> coupling_leak;  ///< part of the carried impulse that survives a substep, 0 .. 1; or the engine's
-  double skin = 0;                ///< ghosts are made for gaps below this [element diameters]; 0: the coupling's own
+  std::optional<double>
+      coupling_leak;  ///< part of the carried impulse that survives a substep, 0 .. 1; or the engine's
+  double skin = 0;    ///< ghosts are made for gaps below this [element diameters]; 0: the coupling's own
   double recut_ghost_share =
       0.5;              ///< re-cut when ghosts / elements exceeds this and 1.3 times the share after the last cut
   int iterations = 10;  ///< solver iterations per substep
