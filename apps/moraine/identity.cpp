@@ -52,10 +52,10 @@ void put(ByteWriter& w, const PairLaw& law) {
   for (const double x : {law.friction, law.restitution, law.rolling_friction}) w.put(x);
 }
 
-void put(ByteWriter& w, const RunSettings& r) {
+void put(ByteWriter& w, const RunSettings& r, const Engine& engine) {
   for (const std::string* text : {&r.engine_profile, &r.split, &r.coupling}) put(w, *text);
-  for (const double x : {r.coupling_leak.value_or(-1), r.skin, r.recut_ghost_share, r.overlap_recovery, r.max_speed})
-    w.put(x);
+  w.put(r.coupling_leak.value_or(engine.coupling_leak));
+  for (const double x : {r.skin, r.recut_ghost_share, r.overlap_recovery, r.max_speed}) w.put(x);
   w.put(r.sub_models);
   w.put(r.iterations);
 }
@@ -80,8 +80,9 @@ std::string identity(const Scene& scene) {
   put_each(w, scene.materials.pairs);
   w.put(scene.time.dt);
   w.put(scene.time.substeps);
-  put(w, std::string(find_engine(scene.run.engine, scene).name));
-  put(w, scene.run);
+  const Engine& engine = find_engine(scene.run.engine, scene);
+  put(w, std::string(engine.name));
+  put(w, scene.run, engine);
   return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
 }
 

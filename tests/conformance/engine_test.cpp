@@ -305,6 +305,11 @@ TEST_P(EngineContract, ContactsCarryTheWeightAtRest) {
   EXPECT_TRUE(std::is_sorted(contacts.begin(), contacts.end(), [](const Contact& p, const Contact& q) {
     return std::tuple(p.a, p.with_boundary, p.b) < std::tuple(q.a, q.with_boundary, q.b);
   }));
+  std::vector<Contact> one_by_one;
+  w.world().each_contact([&](const Contact& c) { one_by_one.push_back(c); });
+  std::sort(one_by_one.begin(), one_by_one.end(), earlier);
+  ASSERT_EQ(one_by_one.size(), contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) EXPECT_EQ(one_by_one[i].impulse, contacts[i].impulse);
 }
 
 TEST_P(EngineContract, BondBreaksOnceAndForGood) {
