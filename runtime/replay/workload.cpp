@@ -70,6 +70,7 @@ class Reader {
     read_models();
     read_phases();
     drop_incomplete();
+    if (out_.shares_cores()) slow_down(1 + share_of_watching());
     for (const WorkEpoch& e : out_.epochs) out_.traced_makespan += e.traced_seconds;
     if (out_.epochs.empty()) throw TraceError("the trace holds no complete epoch, expected one at least");
     measure_overheads();
@@ -113,6 +114,20 @@ class Reader {
       r.last_task = r.any_task ? std::max(r.last_task, t.end) : t.end;
       r.any_task = true;
     }
+  }
+
+  /// Of the time that workers 0 have cores for while tasks run, what does not go into their tasks, by what does: mostly
+  /// looking for messages. It is taken from those who share the cores.
+  double share_of_watching() const {
+    double all = 0, tasks = 0;
+    for (const PhaseRecord& p : trace_.lists.phases) all += p.phase == Phase::work ? p.processor : 0;
+    for (const TaskRecord& t : trace_.lists.tasks) tasks += t.worker == 0 ? t.processor : 0;
+    return tasks > 0 ? std::max(0.0, all / tasks - 1) : 0;
+  }
+
+  void slow_down(double factor) {
+    for (WorkEpoch& e : out_.epochs)
+      for (double& seconds : e.seconds) seconds *= factor;
   }
 
   void read_models() {

@@ -63,7 +63,8 @@ struct Workload {
   std::size_t stages() const { return settings.stages.size(); }
   std::size_t nodes() const { return sub_models * stages(); }
   double seconds() const;  ///< of all tasks
-  /// True if the traced run had more workers than cores. Then seconds are those that tasks had a core for.
+  /// True if the traced run had more workers than cores. Then seconds are those that tasks had a core for, and what
+  /// those who waited took from the cores.
   bool shares_cores() const;
 };
 

@@ -148,9 +148,9 @@ class Writer {
 
   void phase(const PhaseRecord& p) {
     event(
-        R"({{"ph":"X","cat":"phase","name":"{}","pid":{},"tid":{},"ts":{:.3f},"dur":{:.3f},"args":{{"epoch":{},"phase":{}}}}})",
+        R"({{"ph":"X","cat":"phase","name":"{}","pid":{},"tid":{},"ts":{:.3f},"dur":{:.3f},"args":{{"epoch":{},"phase":{},"processor":{}}}}})",
         phase_names[static_cast<std::size_t>(p.phase)], p.rank, phase_row, microseconds(p.start),
-        microseconds(p.seconds()), p.epoch, static_cast<int>(p.phase));
+        microseconds(p.seconds()), p.epoch, static_cast<int>(p.phase), p.processor);
   }
 
   void task(const TaskRecord& t) {
@@ -183,7 +183,8 @@ void read_event(const Json& event, TraceLists& lists) {
   const Json& arguments = event.at("args");
   if (event.at("cat") == "phase") {
     lists.phases.push_back({start, end, arguments.at("epoch").get<std::uint32_t>(), event.at("pid").get<int>(),
-                            static_cast<Phase>(arguments.at("phase").get<int>())});
+                            static_cast<Phase>(arguments.at("phase").get<int>()),
+                            arguments.at("processor").get<float>()});
     return;
   }
   TaskRecord& t = lists.tasks.emplace_back();

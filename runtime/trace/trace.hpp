@@ -58,7 +58,7 @@ struct PhaseRecord {
   std::uint32_t epoch = 0;
   std::int32_t rank = 0;
   Phase phase = Phase::work;
-  std::uint32_t unused = 0;
+  float processor = 0;  ///< seconds that the thread of worker 0 had a core
 
   double seconds() const { return end - start; }
 };

@@ -315,6 +315,8 @@ TEST(Workload, CountsTimeWithACoreWhereCoresAreShared) {
   t.settings.threads = {3};
   EXPECT_EQ(workload_of(t).epochs[0].seconds, (std::vector<double>{0.75, 0.75}));
   EXPECT_EQ(as_traced(workload_of(t)).machine.cores, 1);
+  t.lists.phases.back().processor = 3;  // twice what the tasks had
+  EXPECT_EQ(workload_of(t).epochs[0].seconds, (std::vector<double>{1.5, 1.5}));
 }
 
 TEST(Workload, RefusesTracesThatItCannotReplay) {
