@@ -70,8 +70,10 @@ MORAINE_INLINE unsigned bits(const I8& lanes) {
 #if defined(__AVX2__)
   return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(lanes)));
 #else
+  std::int32_t each[batch_lanes];  // GCC 12 reads lanes[k] wrongly when it sanitizes
+  __builtin_memcpy(each, &lanes, sizeof each);
   unsigned sum = 0;
-  for (unsigned k = 0; k < batch_lanes; ++k) sum |= (lanes[k] != 0 ? 1U : 0U) << k;
+  for (unsigned k = 0; k < batch_lanes; ++k) sum |= (each[k] != 0 ? 1U : 0U) << k;
   return sum;
 #endif
 }
