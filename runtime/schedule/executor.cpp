@@ -64,6 +64,7 @@ class Executor::Run {
       group_.run([this, worker] { serve(worker); });
     serve(0);
     group_.wait();
+    const std::lock_guard lock(mutex_);  // all have ended: for race detectors, which cannot see how oneTBB waits
     const double end = clock_.now(), last = *std::max_element(idle_since_.begin(), idle_since_.end());
     for (std::size_t w = 0; w < idle_since_.size(); ++w) load_.waits[w] += wait_after(idle_since_[w], last, end);
     load_.elapsed = end - begin;
