@@ -60,6 +60,7 @@ void Accounts::take_over(const std::vector<Report>& reports) {
     disagreement += r.disagreement;
     disagreements += r.disagreements;
     ghost_rounds += r.ghost_rounds;
+    rested += r.rested;
     broken_bonds.insert(broken_bonds.end(), r.broken_bonds.begin(), r.broken_bonds.end());
   }
   std::sort(broken_bonds.begin(), broken_bonds.end());
@@ -77,6 +78,7 @@ ModelStatistics Accounts::statistics(const std::vector<Report>& reports, double 
   s.ghosts_now = ghosts(reports);
   s.ghosts_max = std::max(ghosts_max, ghosts(reports));
   s.ghosts_mean = static_cast<double>(all.ghost_rounds) / static_cast<double>(std::max<std::uint64_t>(1, all.rounds));
+  s.rested_mean = static_cast<double>(all.rested) / static_cast<double>(std::max<std::uint64_t>(1, all.rounds));
   const Vec3 linear = s.ledger.momentum.linear - opening.momentum.linear - s.ledger.given.linear;
   const Vec3 angular = s.ledger.momentum.angular - opening.momentum.angular - s.ledger.given.angular;
   s.linear_residual = relative(linear.norm(), std::max({speed_sum_max, s.ledger.speed_sum, s.ledger.exchanged}));

@@ -25,6 +25,7 @@ struct ModelStatistics {
   double ghosts_mean = 0;
   std::size_t ghosts_max = 0;
   std::size_t ghosts_now = 0;
+  double rested_mean = 0;  ///< elements that did not advance in a round, for they were at rest
   std::size_t bonds_broken = 0;
   std::size_t recuts = 0;
   double linear_residual = 0;    ///< unexplained momentum / larger of the largest sum of m|v| and the impulse exchanged
@@ -43,8 +44,8 @@ struct Accounts {
   Ledger opening;  ///< at the start of the run
   Ledger closed;   ///< given and exchanged by sub-models of earlier cuts
   std::size_t recuts = 0;
-  double disagreement = 0;  ///< as in Report, of earlier cuts; so are the next three
-  std::uint64_t disagreements = 0, ghost_rounds = 0, rounds = 0;
+  double disagreement = 0;  ///< as in Report, of earlier cuts; so are the next four
+  std::uint64_t disagreements = 0, ghost_rounds = 0, rounds = 0, rested = 0;
   std::vector<std::uint32_t> broken_bonds;  ///< ascending
   std::uint64_t ghosts_max = 0;
   double speed_sum_max = 0, spin_scale_max = 0;

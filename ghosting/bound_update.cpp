@@ -16,11 +16,13 @@ std::array<double, 3> point(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 void SubModel::bound_update(const runtime::Round& round, runtime::Port& port) {
   if (!(round.opening() && interrupted_)) {
-    update_bounds();
-    choose_ghosts();
+    if (!resting_) update_bounds();
+    if (choose_ghosts() && resting_) wake();
   }
-  for (SharedElement& shared : shared_) start_shared(shared);
+  if (!resting_)
+    for (SharedElement& shared : shared_) start_shared(shared);
   for (const OwnerLink& link : owner_links_) send_ghosts(link, port);
+  if (!round.opening()) watch_rest(round);
 }
 
 void SubModel::update_bounds() {
@@ -33,14 +35,15 @@ void SubModel::update_bounds() {
   max_speed_ = std::sqrt(speed2);
 }
 
-/// Where the host told its border; the others' ghosts stay.
-void SubModel::choose_ghosts() {
+/// Where the host told its border; the others' ghosts stay. Returns whether any have changed.
+bool SubModel::choose_ghosts() {
   bool changed = false;
   for (OwnerLink& link : owner_links_) {
     if (link.border_is_new && choose_hosted(link)) changed = true;
     link.border_is_new = false;
   }
   if (changed) update_shared();
+  return changed;
 }
 
 /// By distance, with memory, and by bond. Returns whether the list has changed.
@@ -161,6 +164,7 @@ void SubModel::send_ghosts(const OwnerLink& link, runtime::Port& port) {
     bound_message_.ghosts.push_back({shared.element, copies, start_of(shared, link.host)});
   }
   bound_message_.broken_bonds = newly_broken_;
+  bound_message_.resting = resting_;
   bound_message_.write(bytes_);
   port.send(link.host, bytes_);
 }

@@ -65,16 +65,18 @@ void io(Io& s, T& x) {
     all(s, x.bond, x.own, x.other);
   } else if constexpr (std::is_same_v<U, Ghost>) {
     all(s, x.element, x.slot, x.start);
+  } else if constexpr (std::is_same_v<U, GhostResult>) {
+    all(s, x.element, x.motion.displacement, x.motion.rotation, x.motion.twist);
   } else if constexpr (std::is_same_v<U, HostLink>) {
-    all(s, x.owner, x.bounds, x.max_speed, x.ghosts, x.bonds, x.held);
+    all(s, x.owner, x.bounds, x.max_speed, x.owner_rests, x.ghosts, x.bonds, x.held);
   } else if constexpr (std::is_same_v<U, OwnerLink>) {
-    all(s, x.host, x.hosted, x.bonds);
+    all(s, x.host, x.hosted, x.bonds, x.results);
   } else if constexpr (std::is_same_v<U, ContactMemory>) {
     all(s, x.a, x.b, x.with_boundary, x.normal, x.sliding, x.rolling);
   } else if constexpr (std::is_same_v<U, Accounts>) {
-    all(s, x.opening, x.closed, x.recuts, x.disagreement, x.disagreements, x.ghost_rounds, x.rounds, x.broken_bonds,
-        x.ghosts_max, x.speed_sum_max, x.spin_scale_max, x.kinetic_max, x.bond_max, x.least_energy, x.gained,
-        x.marked_round, x.marked_impulse);
+    all(s, x.opening, x.closed, x.recuts, x.disagreement, x.disagreements, x.ghost_rounds, x.rounds, x.rested,
+        x.broken_bonds, x.ghosts_max, x.speed_sum_max, x.spin_scale_max, x.kinetic_max, x.bond_max, x.least_energy,
+        x.gained, x.marked_round, x.marked_impulse);
   } else if constexpr (std::is_same_v<U, Worst>) {
     all(s, x.value, x.element);
   } else if constexpr (std::is_same_v<U, Extremes>) {
@@ -85,7 +87,7 @@ void io(Io& s, T& x) {
     all(s, x.entries, x.looks, x.disagreement, x.disagreements);
   } else if constexpr (std::is_same_v<U, Report>) {
     all(s, x.bounds, x.max_speed, x.extremes, x.ledger, x.disagreement, x.disagreements, x.ghosts, x.ghost_rounds,
-        x.rounds, x.broken_bonds);
+        x.rounds, x.rested, x.broken_bonds);
   } else {
     static_assert(std::is_same_v<U, Ledger>);
     all(s, x.momentum, x.given, x.exchanged, x.exchanged_angular, x.from_boundaries, x.work, x.kinetic_energy,

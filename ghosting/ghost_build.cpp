@@ -8,16 +8,22 @@ namespace moraine {
 
 void SubModel::ghost_build(const runtime::Round& round, runtime::Port& port) {
   if (round.opening()) return;
+  if (resting_ && disturbed(round, port)) wake();
+  if (!resting_) build(port);
+  ghost_rounds_ += ghost_count();
+  ++rounds_;
+}
+
+void SubModel::build(const runtime::Port& port) {
   for (HostLink& link : host_links_) {
     bound_message_.read(port.received(link.owner));
     link.bounds = bound_message_.bounds;
     link.max_speed = bound_message_.max_speed;
+    link.owner_rests = bound_message_.resting;
     note_broken(bound_message_.broken_bonds);
     update_ghosts(link, bound_message_);
     hold_bonds(link);
   }
-  ghost_rounds_ += ghost_count();
-  ++rounds_;
 }
 
 /// Both lists ascend by element: one pass keeps, makes and drops.
@@ -35,7 +41,11 @@ void SubModel::update_ghosts(HostLink& link, const BoundMessage& message) {
 }
 
 void SubModel::place_ghost(Ghost& ghost, const GhostOrder& order, bool fresh) {
-  if (!fresh && context_.followers()) return world_->set_state(ghost.slot, order.start);
+  if (!fresh && context_.followers()) {
+    world_->set_state(ghost.slot, order.start);
+    ghost.start = order.start;
+    return;
+  }
   const double mass = context_.element_mass(order.element) * context_.coupling->mass_share(order.copies);
   if (fresh) {
     const Element& e = context_.scene->elements[order.element];

@@ -110,10 +110,11 @@ std::string say_energy(const ModelContext& c, const Worst& w, std::int64_t step)
 }
 
 std::string say_linear(const ModelContext& c, const Worst& w, std::int64_t step) {
-  return fmt::format(
-      "{:.2g} of the momentum exchanged is unexplained by step {}: coupling {} does not keep it; use "
-      "coupling auto or more substeps",
-      w.value, step, c.scene->run.coupling);
+  const std::string cause =
+      c.rest.on()
+          ? "sub-models at rest are skipped; lower run.skip_threshold"
+          : fmt::format("coupling {} does not keep it; use coupling auto or more substeps", c.scene->run.coupling);
+  return fmt::format("{:.2g} of the momentum exchanged is unexplained by step {}: {}", w.value, step, cause);
 }
 
 std::string say_angular(const ModelContext&, const Worst& w, std::int64_t step) {

@@ -85,6 +85,7 @@ void StepMessage::write(std::vector<std::byte>& out) const {
   w.put(static_cast<std::uint8_t>(border_is_new));
   put_all<WireBorder>(w, border);
   w.put_all(std::span<const std::uint32_t>(broken_bonds));
+  w.put(static_cast<std::uint8_t>(resting));
 }
 
 void StepMessage::read(std::span<const std::byte> in) {
@@ -93,6 +94,7 @@ void StepMessage::read(std::span<const std::byte> in) {
   border_is_new = r.get<std::uint8_t>() != 0;
   get_all<WireBorder>(r, border);
   r.get_all(broken_bonds);
+  resting = r.get<std::uint8_t>() != 0;
 }
 
 void BoundMessage::write(std::vector<std::byte>& out) const {
@@ -105,6 +107,7 @@ void BoundMessage::write(std::vector<std::byte>& out) const {
   for (const double x : box) w.put(x);
   put_all<WireOrder>(w, ghosts);
   w.put_all(std::span<const std::uint32_t>(broken_bonds));
+  w.put(static_cast<std::uint8_t>(resting));
 }
 
 void BoundMessage::read(std::span<const std::byte> in) {
@@ -115,6 +118,7 @@ void BoundMessage::read(std::span<const std::byte> in) {
   max_speed = box[6];
   get_all<WireOrder>(r, ghosts);
   r.get_all(broken_bonds);
+  resting = r.get<std::uint8_t>() != 0;
 }
 
 }  // namespace moraine

@@ -30,6 +30,7 @@ struct StepMessage {
   bool border_is_new = true;                ///< if not, ghosts stay as they are
   std::vector<BorderElement> border;        ///< ascending element
   std::vector<std::uint32_t> broken_bonds;  ///< ascending
+  bool resting = false;                     ///< the host does not advance: the results are old ones
 
   void write(std::vector<std::byte>& out) const;
   void read(std::span<const std::byte> in);
@@ -48,6 +49,7 @@ struct BoundMessage {
   double max_speed = 0;                     ///< of the owner's elements [m/s]
   std::vector<GhostOrder> ghosts;           ///< ascending element; ghosts not listed are dropped
   std::vector<std::uint32_t> broken_bonds;  ///< ascending
+  bool resting = false;                     ///< the owner does not advance: the ghosts are where they were
 
   void write(std::vector<std::byte>& out) const;
   void read(std::span<const std::byte> in);

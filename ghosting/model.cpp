@@ -104,6 +104,8 @@ CoupledModel::CoupledModel(const Scene& scene, runtime::Transport& transport) : 
     context_.bond_ends.push_back({element_index(scene, b.a), element_index(scene, b.b)});
   context_.skin = (scene.run.skin > 0 ? scene.run.skin : coupling_row_->skin) * context_.world.length_unit;
   context_.enclosure = Enclosure(scene);
+  context_.rest = rest_limits(context_.world, scene.run.skip_threshold);
+  context_.driven = DrivenBoundaries(scene);
   context_.start = deepest_overlap(scene);
   for (const Shape& s : scene.shapes) context_.inner_radius.push_back(inner_radius(s.geometry));
   context_.advised = context_.engine->advised_step(scene);

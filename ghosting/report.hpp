@@ -46,6 +46,7 @@ struct Report {
   std::uint64_t ghosts = 0;        ///< now
   std::uint64_t ghost_rounds = 0;  ///< sum over rounds of the number of ghosts
   std::uint64_t rounds = 0;
+  std::uint64_t rested = 0;                 ///< sum over rounds of the elements that did not advance
   std::vector<std::uint32_t> broken_bonds;  ///< ascending
 };
 

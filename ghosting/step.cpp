@@ -11,9 +11,12 @@
 namespace moraine {
 
 void SubModel::step(const runtime::Round& round, runtime::Port& port) {
-  if (!round.opening()) advance(round);
-  step_message_.border_is_new = borders_due(round);
+  if (resting_) newly_broken_.clear();
+  if (!round.opening() && !resting_) advance(round);
+  const bool borders = borders_due(round);
+  step_message_.resting = resting_;
   for (HostLink& link : host_links_) {
+    step_message_.border_is_new = borders && !(resting_ && link.owner_rests && !round.opening());
     report(link, round.opening(), step_message_);
     step_message_.write(bytes_);
     port.send(link.owner, bytes_);

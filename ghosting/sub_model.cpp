@@ -93,6 +93,7 @@ double SubModel::counted_work(int stage) const {
     case ghost_build_stage:
       return 0.1 * ghosts;
     case step_stage:
+      if (resting_) return 0.01 * members;
       return static_cast<double>(work.bodies + work.contacts) + 0.2 * static_cast<double>(work.bonds);
     case force_mirror_stage:
       return 0.1 * static_cast<double>(shared_.size()) + 0.02 * members;
@@ -108,7 +109,7 @@ std::span<const std::string_view> SubModel::counters() {
 
 void SubModel::count(std::span<std::uint32_t> out) const {
   out[0] = static_cast<std::uint32_t>(members_.size());
-  out[1] = static_cast<std::uint32_t>(world_->work().contacts);
+  out[1] = resting_ ? 0 : static_cast<std::uint32_t>(world_->work().contacts);
   out[2] = static_cast<std::uint32_t>(ghost_count());
 }
 
@@ -116,8 +117,8 @@ void SubModel::count(std::span<std::uint32_t> out) const {
 double SubModel::memory() const { return 4000.0 * static_cast<double>(members_.size() + ghost_count()); }
 
 Report SubModel::report() const {
-  return {bounds_,        max_speed_,    extremes(),    ledger(), disagreement_,
-          disagreements_, ghost_count(), ghost_rounds_, rounds_,  broken_};
+  return {bounds_,       max_speed_,    extremes(), ledger(), disagreement_, disagreements_,
+          ghost_count(), ghost_rounds_, rounds_,    rested_,  broken_};
 }
 
 std::size_t SubModel::ghost_count() const {
@@ -144,7 +145,7 @@ void SubModel::set_neighbours(std::span<const Neighbour> neighbours) {
   for (const Neighbour& n : neighbours) {
     if (context_.coupling->hosts(id_, n.id)) {
       const auto same = std::find_if(old_hosts.begin(), old_hosts.end(), [&](auto& l) { return l.owner == n.id; });
-      HostLink link = same == old_hosts.end() ? HostLink{n.id, {}, 0, {}, n.bonds, {}} : std::move(*same);
+      HostLink link = same == old_hosts.end() ? HostLink{n.id, {}, 0, false, {}, n.bonds, {}} : std::move(*same);
       link.bounds = n.bounds;
       link.max_speed = n.max_speed;
       host_links_.push_back(std::move(link));
@@ -157,6 +158,10 @@ void SubModel::set_neighbours(std::span<const Neighbour> neighbours) {
   }
   for (HostLink& gone : old_hosts)
     for (const Ghost& g : gone.ghosts) world_->remove(g.slot);
+  const auto had_ghosts = [](const auto& links, auto ghosts) {
+    return std::any_of(links.begin(), links.end(), [&](const auto& link) { return !(link.*ghosts).empty(); });
+  };
+  if (had_ghosts(old_hosts, &HostLink::ghosts) || had_ghosts(old_owners, &OwnerLink::hosted)) wake();
   list_partners();
   update_shared();
 }

@@ -12,6 +12,7 @@
 #include "ghosting/ledger.hpp"
 #include "ghosting/messages.hpp"
 #include "ghosting/report.hpp"
+#include "ghosting/rest.hpp"
 #include "physics/cell_grid.hpp"
 #include "physics/initial_overlap.hpp"
 #include "physics/world.hpp"
@@ -32,6 +33,8 @@ struct ModelContext {
   StepLimit advised;                 ///< up to which the engine is at its best
   Enclosure enclosure;               ///< stands still during an epoch
   std::vector<double> inner_radius;  ///< by shape [m]
+  RestLimits rest;
+  DrivenBoundaries driven;
   /// Ghosts show their owner's state and have no say.
   bool followers() const { return engine->ghosts == GhostKind::follower; }
   double element_mass(std::uint32_t element) const { return scene->elements[element].mass; }
@@ -57,6 +60,7 @@ struct HostLink {
   SubModelId owner = 0;
   Bounds bounds;  ///< of the owner's elements, a substep old
   double max_speed = 0;
+  bool owner_rests = false;
   std::vector<Ghost> ghosts;        ///< ascending element
   std::vector<CrossBond> bonds;     ///< alive; other = the ghost
   std::vector<std::uint32_t> held;  ///< bonds of these that are in the world, ascending
@@ -70,7 +74,7 @@ struct OwnerLink {
   std::vector<std::uint32_t> hosted;  ///< our elements that have a ghost there, ascending
   std::vector<std::uint32_t> shared;  ///< places of these among the shared elements
   std::vector<CrossBond> bonds;       ///< alive; own = the element that needs a ghost there
-  std::vector<GhostResult> results;   ///< of the last step
+  std::vector<GhostResult> results;   ///< of the last step; at rest, of the last before it
 };
 
 class SubModel final : public runtime::SubModel {
@@ -117,6 +121,7 @@ class SubModel final : public runtime::SubModel {
   /// The accounts, with what the members have now.
   Ledger ledger() const;
   const World& world() const { return *world_; }
+  bool resting() const { return resting_; }
   std::span<const HostLink> host_links() const { return host_links_; }
   std::span<const OwnerLink> owner_links() const { return owner_links_; }
   std::span<const SharedElement> shared() const { return shared_; }
@@ -125,6 +130,7 @@ class SubModel final : public runtime::SubModel {
 
  private:
   void ghost_build(const runtime::Round& round, runtime::Port& port);
+  void build(const runtime::Port& port);
   void update_ghosts(HostLink& link, const BoundMessage& message);
   void place_ghost(Ghost& ghost, const GhostOrder& order, bool fresh);
   void drop_ghost(HostLink& link, const Ghost& ghost);
@@ -142,6 +148,8 @@ class SubModel final : public runtime::SubModel {
 
   void force_mirror(const runtime::Round& round, runtime::Port& port);
   void receive_results(OwnerLink& link, std::span<const std::byte> bytes);
+  bool receive_at_rest(OwnerLink& link, std::span<const std::byte> bytes, bool opening);
+  void receive_border(OwnerLink& link);
   void forget_bonds(std::span<const std::uint32_t> broken);
   CopyMotion own_motion(const SharedElement& shared) const;
   void collect_motions(const SharedElement& shared);
@@ -155,7 +163,7 @@ class SubModel final : public runtime::SubModel {
 
   void bound_update(const runtime::Round& round, runtime::Port& port);
   void update_bounds();
-  void choose_ghosts();
+  bool choose_ghosts();
   bool choose_hosted(OwnerLink& link);
   void find_touching(const OwnerLink& link, std::vector<std::uint32_t>& out);
   void update_shared();
@@ -164,6 +172,15 @@ class SubModel final : public runtime::SubModel {
   void start_shared(SharedElement& shared);
   void unshare(const SharedElement& shared);
   void send_ghosts(const OwnerLink& link, runtime::Port& port);
+
+  bool driven(const runtime::Round& round) const;
+  bool still(const runtime::Round& round) const;
+  void watch_rest(const runtime::Round& round);
+  void wake();
+  void rest_account();
+  bool disturbed(const runtime::Round& round, const runtime::Port& port);
+  bool disturbs(const HostLink& link, const BoundMessage& message) const;
+  bool pushes(const OwnerLink& link, const StepMessage& message) const;
 
   void list_partners();
   template <class Io, class Self>
@@ -199,6 +216,11 @@ class SubModel final : public runtime::SubModel {
   std::uint64_t disagreements_ = 0;
   std::uint64_t ghost_rounds_ = 0, rounds_ = 0;
   bool interrupted_ = false;
+  bool resting_ = false;           ///< does not advance
+  std::int64_t still_rounds_ = 0;  ///< in a row, until now
+  Ledger still_since_;             ///< at the first of them
+  Ledger at_rest_;                 ///< what every round at rest adds to the accounts
+  std::uint64_t rested_ = 0;       ///< sum over rounds of the elements that did not advance
 
   // Buffers, reused
   std::vector<std::byte> bytes_;

@@ -10,7 +10,8 @@ void SubModel::fields(Io& s, Self& self) {
   moraine::fields::all(s, self.members_, self.slots_, self.shared_index_, self.host_links_, self.owner_links_,
                        self.shared_, self.inner_bonds_, self.broken_, self.bounds_, self.max_speed_,
                        self.largest_radius_, self.approached_, self.ledger_, self.disagreement_, self.disagreements_,
-                       self.ghost_rounds_, self.rounds_, self.radius_, self.mass_);
+                       self.ghost_rounds_, self.rounds_, self.radius_, self.mass_, self.resting_, self.still_rounds_,
+                       self.still_since_, self.at_rest_, self.rested_);
 }
 
 void SubModel::save(std::vector<std::byte>& out) const {

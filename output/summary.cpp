@@ -117,6 +117,7 @@ Json results_of(const Summary& s) {
           {"balance", json_of(s.balance)},
           {"messages", json_of(s.messages)},
           {"step_share", s.step_share},
+          {"rested", s.rested},
           {"recuts", s.recuts},
           {"warnings", s.warnings}};
 }

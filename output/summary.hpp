@@ -36,6 +36,7 @@ struct Summary {
     std::uint64_t max = 0, final = 0;
     double fraction_mean = 0, fraction_final = 0;  ///< of the elements
   } ghosts;
+  double rested = 0;  ///< share of the elements that were skipped at rest, mean over the run
   struct Bonds {
     std::uint64_t total = 0, broken = 0;
   } bonds;

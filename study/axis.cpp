@@ -18,6 +18,7 @@ constexpr std::array names{
     ShortName{"coupling", "run.coupling", "--coupling"},
     ShortName{"threads", "run.threads", "--threads"},
     ShortName{"overlap_recovery", "run.overlap_recovery", ""},
+    ShortName{"skip_threshold", "run.skip_threshold", "--skip-threshold"},
     ShortName{"skin", "run.skin", ""},
 };
 

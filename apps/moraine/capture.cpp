@@ -173,6 +173,7 @@ Summary summarise(const CoupledModel& model, runtime::Simulation& simulation, do
   for (std::size_t i = 0; i < load.stages.size(); ++i)
     s.step_share[std::string(SubModel::stages()[i].name)] =
         load.busy() > 0 ? load.stages[i].taken.seconds / load.busy() : 0;
+  s.rested = share(statistics.rested_mean);
   s.recuts = statistics.recuts;
   s.warnings = scene.warnings;
   for (std::string& warning : model.warnings()) s.warnings.push_back(std::move(warning));

@@ -55,7 +55,7 @@ void put(ByteWriter& w, const PairLaw& law) {
 void put(ByteWriter& w, const RunSettings& r, const Engine& engine) {
   for (const std::string* text : {&r.engine_profile, &r.split, &r.coupling}) put(w, *text);
   w.put(r.coupling_leak.value_or(engine.coupling_leak));
-  for (const double x : {r.skin, r.recut_ghost_share, r.overlap_recovery, r.max_speed}) w.put(x);
+  for (const double x : {r.skin, r.recut_ghost_share, r.overlap_recovery, r.max_speed, r.skip_threshold}) w.put(x);
   w.put(r.sub_models);
   w.put(r.iterations);
 }

@@ -55,6 +55,13 @@ std::string time_limit_text(const Scene& scene, const Engine& engine) {
   return text;
 }
 
+std::string rest_text(const Scene& scene) {
+  const RestLimits limits = rest_limits(world_settings(scene), scene.run.skip_threshold);
+  if (!limits.on()) return "nothing is skipped (run.skip_threshold)";
+  return fmt::format("sub-models are skipped that have been slower than {:.4g} m/s for {} substeps", limits.speed,
+                     limits.rounds);
+}
+
 /// A sub-model belongs to one rank, so the rank with most of them bounds what all can use: equal sub-models, any
 /// scheduler but barrier.
 double whole_ownership(std::size_t parts, int ranks, int threads) {
@@ -99,6 +106,7 @@ int info(const Scene& scene, int ranks) {
   line("time", fmt::format("{} steps of {:.6g} s in {} substep(s), {} iterations each", scene.time.steps, scene.time.dt,
                            scene.time.substeps, scene.run.iterations));
   line("time limit", time_limit_text(scene, model.engine()));
+  line("rest", rest_text(scene));
   line("scheduling", fmt::format("{}; {}", scene.run.scheduler, barrier_text(model.size(), threads)));
   line("", ownership_text(model.size(), ranks, threads));
   line("memory", fmt::format("about {:.0f} MB for the worlds", 8e-3 * double(scene.elements.size())));

@@ -29,6 +29,7 @@ constexpr std::array table{
     Row{"--sub-models", "run.sub_models", "number of sub-models, or auto"},
     Row{"--split", "run.split", "how the scene is cut, see 'moraine list'"},
     Row{"--coupling", "run.coupling", "how sub-models are coupled, see 'moraine list'"},
+    Row{"--skip-threshold", "run.skip_threshold", "sub-models slower than this are skipped [sqrt(g d)]; 0: none"},
     Row{"--iterations", "run.iterations", "solver iterations per substep"},
     Row{"--scheduler", "run.scheduler", "order of tasks, see 'moraine list'"},
     Row{"--balancer", "run.balancer", "which rank owns which sub-model, see 'moraine list'"},

@@ -99,7 +99,7 @@ void read_run(const Node& root, RunSettings& run) {
                "balance_by",   "checkpoint_every",
                "restart",      "trace",
                "trace_window", "max_speed",
-               "owners"});
+               "owners",       "skip_threshold"});
   run.engine = node->text("engine", run.engine);
   run.engine_profile = node->text("engine_profile", run.engine_profile);
   run.sub_models = read_sub_models(*node);
@@ -108,6 +108,7 @@ void read_run(const Node& root, RunSettings& run) {
   if (const auto leak = node->find("coupling_leak")) run.coupling_leak = leak->within(0, 1);
   run.skin = node->not_negative("skin", run.skin);
   run.recut_ghost_share = node->not_negative("recut_ghost_share", run.recut_ghost_share);
+  run.skip_threshold = node->not_negative("skip_threshold", run.skip_threshold);
   run.iterations = read_int(*node, "iterations", run.iterations, 1);
   run.overlap_recovery = read_fraction(*node, "overlap_recovery", run.overlap_recovery);
   run.scheduler = node->text("scheduler", run.scheduler);

@@ -30,8 +30,9 @@ struct RunSettings {
       coupling_leak;  ///< part of the carried impulse that survives a substep, 0 .. 1; or the engine's
   double skin = 0;    ///< ghosts are made for gaps below this [element diameters]; 0: the coupling's own
   double recut_ghost_share =
-      0.5;              ///< re-cut when ghosts / elements exceeds this and 1.3 times the share after the last cut
-  int iterations = 10;  ///< solver iterations per substep
+      0.5;                    ///< re-cut when ghosts / elements exceeds this and 1.3 times the share after the last cut
+  double skip_threshold = 0;  ///< sub-models slower than this are skipped [sqrt(g d)]; 0: none
+  int iterations = 10;        ///< solver iterations per substep
   double overlap_recovery = 0.1;  ///< share of an overlap that an engine removes per substep; 0 .. 1
   std::string scheduler = "hybrid";
   int threads = 0;                  ///< of each rank; 0: its share of the cores it may use

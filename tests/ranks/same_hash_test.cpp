@@ -22,6 +22,10 @@ const std::vector<Case> examples = {
      "crust_small",
      {set("count", 800), set("radius", "3000"), set("dt", 1), set("steps", 40), set("run.sub_models", 6)}},
     {"mixed_shapes", "mixed_shapes", {set("count", 80), set("time.duration", 1.2), set("run.sub_models", 5)}},
+    {"resting_bed",
+     "pushed_bed",
+     {set("sections", 5), set("count", "40 * sections"), set("width", 2.5), set("settled", 3), set("time.duration", 4),
+      set("run.skip_threshold", 0.1)}},
     {"bonded_beam", "bonded_beam", {set("time.duration", 0.3), set("run.sub_models", 5)}},
 };
 

@@ -134,13 +134,14 @@ TEST(Scene, SettingsAreTheDefaultsUnlessStated) {
   const Scene set = scene_of(minimal + R"(
 run: {sub_models: auto, split: slabs, coupling: none, coupling_leak: 0.5, skin: 0.1, recut_ghost_share: 0.4,
       iterations: 7, scheduler: serial, threads: 2, max_speed: 3,
-      engine_profile: physx, engine: ode}
+      engine_profile: physx, engine: ode, skip_threshold: 0.01}
 output: {folder: here, quiet: true, every: 3, formats: [csv, vtkhdf], pictures: no, picture_width: 300}
 )");
   EXPECT_EQ(set.run.sub_models, 0);
   EXPECT_EQ(set.run.split, "slabs");
   EXPECT_EQ(set.run.coupling_leak, 0.5);
   EXPECT_EQ(set.run.iterations, 7);
+  EXPECT_EQ(set.run.skip_threshold, 0.01);
   EXPECT_EQ(set.run.engine_profile, "physx");
   EXPECT_EQ(set.output.formats, (std::vector<std::string>{"csv", "vtkhdf"}));
   EXPECT_EQ(set.output.folder, "here");
