@@ -9,14 +9,7 @@ namespace moraine {
 
 void SubModel::force_mirror(const runtime::Round& round, runtime::Port& port) {
   if (round.opening() && interrupted_) return;
-  if (resting_) {
-    bool pushed = false;
-    for (OwnerLink& link : owner_links_)
-      if (receive_at_rest(link, port.received(link.host), round.opening())) pushed = true;
-    if (!round.opening()) rest_account();
-    if (pushed) wake();
-    return;
-  }
+  if (resting_) return mirror_at_rest(round, port);
   for (OwnerLink& link : owner_links_) receive_results(link, port.received(link.host));
   if (round.opening()) return;
   for (SharedElement& shared : shared_) combine(shared);
@@ -29,17 +22,6 @@ void SubModel::receive_results(OwnerLink& link, std::span<const std::byte> bytes
   std::swap(link.results, step_message_.results);
   note_broken(step_message_.broken_bonds);
   forget_bonds(step_message_.broken_bonds);
-}
-
-/// Results are compared with those of the last round before this sub-model fell asleep, which stay. True if they
-/// differ.
-bool SubModel::receive_at_rest(OwnerLink& link, std::span<const std::byte> bytes, bool opening) {
-  step_message_.read(bytes);
-  receive_border(link);
-  if (opening || step_message_.resting) return false;
-  note_broken(step_message_.broken_bonds);
-  forget_bonds(step_message_.broken_bonds);
-  return pushes(link, step_message_);
 }
 
 void SubModel::receive_border(OwnerLink& link) {

@@ -125,6 +125,25 @@ bool SubModel::disturbs(const HostLink& link, const BoundMessage& message) const
   });
 }
 
+void SubModel::mirror_at_rest(const runtime::Round& round, const runtime::Port& port) {
+  bool pushed = false;
+  for (OwnerLink& link : owner_links_)
+    if (receive_at_rest(link, port.received(link.host), round.opening())) pushed = true;
+  if (!round.opening()) rest_account();
+  if (pushed) wake();
+}
+
+/// Results are compared with those of the last round before this sub-model fell asleep, which stay. True if they
+/// differ.
+bool SubModel::receive_at_rest(OwnerLink& link, std::span<const std::byte> bytes, bool opening) {
+  step_message_.read(bytes);
+  receive_border(link);
+  if (opening || step_message_.resting) return false;
+  note_broken(step_message_.broken_bonds);
+  forget_bonds(step_message_.broken_bonds);
+  return pushes(link, step_message_);
+}
+
 /// Whether a host's copies are pushed otherwise than when this sub-model fell asleep, or a bond to it broke.
 bool SubModel::pushes(const OwnerLink& link, const StepMessage& message) const {
   const bool same =

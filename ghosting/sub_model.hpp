@@ -148,7 +148,6 @@ class SubModel final : public runtime::SubModel {
 
   void force_mirror(const runtime::Round& round, runtime::Port& port);
   void receive_results(OwnerLink& link, std::span<const std::byte> bytes);
-  bool receive_at_rest(OwnerLink& link, std::span<const std::byte> bytes, bool opening);
   void receive_border(OwnerLink& link);
   void forget_bonds(std::span<const std::uint32_t> broken);
   CopyMotion own_motion(const SharedElement& shared) const;
@@ -178,6 +177,8 @@ class SubModel final : public runtime::SubModel {
   void watch_rest(const runtime::Round& round);
   void wake();
   void rest_account();
+  void mirror_at_rest(const runtime::Round& round, const runtime::Port& port);
+  bool receive_at_rest(OwnerLink& link, std::span<const std::byte> bytes, bool opening);
   bool disturbed(const runtime::Round& round, const runtime::Port& port);
   bool disturbs(const HostLink& link, const BoundMessage& message) const;
   bool pushes(const OwnerLink& link, const StepMessage& message) const;
