@@ -19,10 +19,17 @@ void SubModel::bound_update(const runtime::Round& round, runtime::Port& port) {
     if (!resting_) update_bounds();
     if (choose_ghosts() && resting_) wake();
   }
-  if (!resting_)
-    for (SharedElement& shared : shared_) start_shared(shared);
+  if (!resting_) start_all_shared();
   for (const OwnerLink& link : owner_links_) send_ghosts(link, port);
   if (!round.opening()) watch_rest(round);
+}
+
+void SubModel::start_all_shared() {
+  note_meetings();
+  for (SharedElement& shared : shared_) {
+    context_.coupling->share_out(shared, id_);
+    start_shared(shared);
+  }
 }
 
 void SubModel::update_bounds() {
@@ -52,6 +59,8 @@ bool SubModel::choose_hosted(OwnerLink& link) {
   std::erase_if(link.bonds,
                 [&](const CrossBond& b) { return std::binary_search(broken_.begin(), broken_.end(), b.bond); });
   for (const CrossBond& b : link.bonds) found_.push_back(b.own);
+  for (const CrossBond& b : link.bonds) link.meeting.push_back(b.own);
+  std::sort(link.meeting.begin(), link.meeting.end());
   std::sort(found_.begin(), found_.end());
   found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
   if (found_ == link.hosted) return false;
@@ -59,9 +68,11 @@ bool SubModel::choose_hosted(OwnerLink& link) {
   return true;
 }
 
-/// Members whose bounding sphere comes closer than the skin to that of an element of the host, ascending.
-void SubModel::find_touching(const OwnerLink& link, std::vector<std::uint32_t>& out) {
+/// Members whose bounding sphere comes closer than the skin to that of an element of the host, ascending. Of these, the
+/// link notes the ones that meet one.
+void SubModel::find_touching(OwnerLink& link, std::vector<std::uint32_t>& out) {
   out.clear();
+  link.meeting.clear();
   Bounds box;
   double largest = 0;
   points_.clear();
@@ -73,17 +84,21 @@ void SubModel::find_touching(const OwnerLink& link, std::vector<std::uint32_t>& 
   if (points_.empty()) return;
   grid_.build(points_, largest + largest_radius_ + drop_factor * context_.skin);
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    const Vec3& x = motions_[i].position;
+    const BodyMotion& own = motions_[i];
     const double radius = radius_[i];
-    if (box.distance(x) > radius + drop_factor * context_.skin) continue;
+    if (!box.within(radius + drop_factor * context_.skin, own.position)) continue;
     const bool hosted = std::binary_search(link.hosted.begin(), link.hosted.end(), members_[i]);
     const double reach = radius + context_.skin * (hosted ? drop_factor : 1.0);
-    bool touches = false;
-    grid_.around(point(x), [&](std::uint32_t k) {
+    bool touches = false, meets = false;
+    grid_.around(point(own.position), [&](std::uint32_t k) {
+      if (meets) return;
       const double limit = reach + link.border[k].radius;
-      touches = touches || (link.border[k].position - x).squaredNorm() <= limit * limit;
+      if ((link.border[k].position - own.position).squaredNorm() > limit * limit) return;
+      touches = true;
+      meets = about_to_meet(own, radius, link.border[k]);
     });
     if (touches) out.push_back(members_[i]);
+    if (meets) link.meeting.push_back(members_[i]);
   }
 }
 
@@ -133,15 +148,15 @@ void SubModel::locate_hosted() {
 
 ElementState SubModel::start_of(const SharedElement& shared, SubModelId world) const {
   if (context_.followers()) return shared.state;
-  const auto copy = std::find_if(shared.copies.begin(), shared.copies.end(), [&](auto& c) { return c.world == world; });
-  return {shared.state.pose, shared.state.twist + copy->offset};
+  return {shared.state.pose, shared.state.twist + shared.copy_in(world).offset};
 }
 
 /// The real copy of an element with followers needs no telling.
 void SubModel::start_shared(SharedElement& shared) {
   if (context_.followers()) return;
   const Slot slot = slots_[shared.member];
-  world_->set_mass(slot, mass_[shared.member] * context_.coupling->mass_share(shared.copies.size()));
+  const Copy& real = shared.copy_in(id_);
+  world_->set_mass(slot, mass_[shared.member] * real.share, real.carries);
   world_->set_state(slot, start_of(shared, id_));
   shared.start = {{world_->position(slot), shared.state.pose.orientation}, shared.state.twist};
 }
@@ -150,7 +165,7 @@ void SubModel::start_shared(SharedElement& shared) {
 void SubModel::unshare(const SharedElement& shared) {
   if (context_.followers()) return;
   const Slot slot = slots_[shared.member];
-  world_->set_mass(slot, mass_[shared.member]);
+  world_->set_mass(slot, mass_[shared.member], false);
   world_->set_state(slot, shared.state);
 }
 
@@ -160,8 +175,8 @@ void SubModel::send_ghosts(const OwnerLink& link, runtime::Port& port) {
   bound_message_.ghosts.clear();
   for (const std::uint32_t at : link.shared) {
     const SharedElement& shared = shared_[at];
-    const auto copies = static_cast<std::uint32_t>(shared.copies.size());
-    bound_message_.ghosts.push_back({shared.element, copies, start_of(shared, link.host)});
+    const Copy& copy = shared.copy_in(link.host);
+    bound_message_.ghosts.push_back({shared.element, copy.carries, copy.share, start_of(shared, link.host)});
   }
   bound_message_.broken_bonds = newly_broken_;
   bound_message_.resting = resting_;

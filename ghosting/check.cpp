@@ -40,8 +40,8 @@ void verify_shared(const SubModel& part, bool offsets_sum_to_zero) {
     double scale = 0;
     bool own = false;
     for (const Copy& c : s.copies) {
-      sum += c.offset.linear;
-      scale += c.offset.linear.norm() + s.state.twist.linear.norm();
+      sum += c.share * c.offset.linear;
+      scale += c.share * c.offset.linear.norm() + s.state.twist.linear.norm();
       own = own || c.world == part.id();
     }
     if (!own) broken(fmt::format("shared element {} has no copy at its owner", s.element));

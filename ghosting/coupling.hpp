@@ -2,6 +2,7 @@
 // How the copies of one element stay one element: the contract of a coupling and the table of them.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -14,12 +15,22 @@ namespace moraine {
 
 /// One copy of a shared element: the real one in its owner's world or a ghost in a host's world.
 struct Copy {
+  static constexpr std::int32_t never = 1000;
+
   SubModelId world = 0;
-  Twist offset;   ///< of the copy's velocity from the element's at the start of a substep: the load it carries
-  Twist lasting;  ///< slow mean of the offset: the load it has carried for long
+  Twist offset;          ///< of the copy's velocity from the element's at the start of a substep: what it carries
+  Twist lasting;         ///< slow mean of the offset: the load it has carried for long
+  double share = 0;      ///< of the element's mass and inertia
+  bool carries = false;  ///< as the engine is told, see Body
+  bool meets = false;    ///< it touches something in its world, or is about to
+  std::int32_t unpushed = never;  ///< substeps since anything but gravity acted on it, at most that
 
   /// A copy that carries nothing yet.
-  static Copy in(SubModelId world) { return {world, {}, {}}; }
+  static Copy in(SubModelId world) {
+    Copy copy;
+    copy.world = world;
+    return copy;
+  }
 };
 
 /// What a copy did in one substep.
@@ -37,6 +48,11 @@ struct SharedElement {
   std::vector<Copy> copies;   ///< ascending world; includes the real one
   ElementState start;         ///< of the real copy, as its world holds it in this substep
   ElementState end;           ///< of the real copy after the substep
+
+  Copy& copy_in(SubModelId world) {
+    return *std::find_if(copies.begin(), copies.end(), [&](const Copy& c) { return c.world == world; });
+  }
+  const Copy& copy_in(SubModelId world) const { return const_cast<SharedElement*>(this)->copy_in(world); }
 };
 
 /// What a coupling may use besides the element itself.
@@ -52,8 +68,8 @@ class Coupling {
   virtual ~Coupling() = default;
   /// Whether `host` makes ghosts of elements of its neighbour `owner`.
   virtual bool hosts(SubModelId host, SubModelId owner) const = 0;
-  /// Share of the element's mass and inertia that each of its copies has.
-  virtual double mass_share(std::size_t copies) const = 0;
+  /// Before a substep: gives every copy its share of the element's mass and inertia. Twice is as once.
+  virtual void share_out(SharedElement& shared, SubModelId owner) const = 0;
   /// Turns what the copies did (one motion per copy; none if ghosts are followers) into the element's new state and the
   /// copies' new offsets. Returns the squared speed by which the copies disagreed, summed over copies [m^2/s^2].
   virtual double combine(SharedElement& shared, std::span<const CopyMotion> motions,

@@ -10,7 +10,9 @@ namespace {
 class Exact final : public Coupling {
  public:
   bool hosts(SubModelId, SubModelId) const override { return true; }
-  double mass_share(std::size_t) const override { return 1.0; }
+  void share_out(SharedElement& shared, SubModelId) const override {
+    for (Copy& c : shared.copies) c.share = 1;
+  }
 
   double combine(SharedElement& shared, std::span<const CopyMotion>, const CouplingContext&) const override {
     shared.state = shared.end;

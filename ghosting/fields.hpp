@@ -58,7 +58,7 @@ void io(Io& s, T& x) {
   } else if constexpr (std::is_same_v<U, Bounds>) {
     all(s, x.min, x.max);
   } else if constexpr (std::is_same_v<U, Copy>) {
-    all(s, x.world, x.offset, x.lasting);
+    all(s, x.world, x.offset, x.lasting, x.share, x.carries, x.meets, x.unpushed);
   } else if constexpr (std::is_same_v<U, SharedElement>) {
     all(s, x.element, x.member, x.state, x.copies, x.start);
   } else if constexpr (std::is_same_v<U, CrossBond>) {
@@ -70,7 +70,7 @@ void io(Io& s, T& x) {
   } else if constexpr (std::is_same_v<U, HostLink>) {
     all(s, x.owner, x.bounds, x.max_speed, x.owner_rests, x.ghosts, x.bonds, x.held);
   } else if constexpr (std::is_same_v<U, OwnerLink>) {
-    all(s, x.host, x.hosted, x.bonds, x.results);
+    all(s, x.host, x.hosted, x.bonds, x.meeting, x.results);
   } else if constexpr (std::is_same_v<U, ContactMemory>) {
     all(s, x.a, x.b, x.with_boundary, x.normal, x.sliding, x.rolling);
   } else if constexpr (std::is_same_v<U, Accounts>) {

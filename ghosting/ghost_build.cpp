@@ -46,12 +46,12 @@ void SubModel::place_ghost(Ghost& ghost, const GhostOrder& order, bool fresh) {
     ghost.start = order.start;
     return;
   }
-  const double mass = context_.element_mass(order.element) * context_.coupling->mass_share(order.copies);
+  const double mass = context_.element_mass(order.element) * order.share;
   if (fresh) {
     const Element& e = context_.scene->elements[order.element];
-    ghost.slot = world_->add({e.id, e.shape, e.material, mass, Role::ghost, order.start});
+    ghost.slot = world_->add({e.id, e.shape, e.material, mass, Role::ghost, order.start, order.carries});
   } else {
-    world_->set_mass(ghost.slot, mass);
+    world_->set_mass(ghost.slot, mass, order.carries);
     world_->set_state(ghost.slot, order.start);
   }
   ghost.start = {{world_->position(ghost.slot), order.start.pose.orientation}, order.start.twist};

@@ -15,13 +15,13 @@ struct WireResult {
   WireMotion motion;
 };
 struct WireBorder {
-  double position[3], radius;
+  double position[3], velocity[3], radius;
 };
 struct WireOrder {
-  std::uint32_t element, copies;
-  double position[3], orientation[4], linear[3], angular[3];
+  std::uint32_t element, carries;
+  double share, position[3], orientation[4], linear[3], angular[3];
 };
-static_assert(sizeof(WireResult) == 104 && sizeof(WireBorder) == 32 && sizeof(WireOrder) == 112);
+static_assert(sizeof(WireResult) == 104 && sizeof(WireBorder) == 56 && sizeof(WireOrder) == 120);
 
 void put(const Vec3& v, double* to) {
   for (int a = 0; a < 3; ++a) to[a] = v[a];
@@ -43,14 +43,15 @@ GhostResult plain(const WireResult& w) {
 }
 
 WireBorder wire(const BorderElement& b) {
-  WireBorder w{{}, b.radius};
+  WireBorder w{{}, {}, b.radius};
   put(b.position, w.position);
+  put(b.velocity, w.velocity);
   return w;
 }
-BorderElement plain(const WireBorder& w) { return {vec(w.position), w.radius}; }
+BorderElement plain(const WireBorder& w) { return {vec(w.position), vec(w.velocity), w.radius}; }
 
 WireOrder wire(const GhostOrder& g) {
-  WireOrder w{g.element, g.copies, {}, {}, {}, {}};
+  WireOrder w{g.element, g.carries, g.share, {}, {}, {}, {}};
   const Quat& q = g.start.pose.orientation;
   put(g.start.pose.position, w.position);
   const double coefficients[4] = {q.w(), q.x(), q.y(), q.z()};
@@ -61,7 +62,10 @@ WireOrder wire(const GhostOrder& g) {
 }
 GhostOrder plain(const WireOrder& w) {
   const double* q = w.orientation;
-  return {w.element, w.copies, {{vec(w.position), Quat(q[0], q[1], q[2], q[3])}, {vec(w.linear), vec(w.angular)}}};
+  return {w.element,
+          w.carries != 0,
+          w.share,
+          {{vec(w.position), Quat(q[0], q[1], q[2], q[3])}, {vec(w.linear), vec(w.angular)}}};
 }
 
 template <class Wire, class Plain>

@@ -21,6 +21,7 @@ struct GhostResult {
 /// An element of the host that lies near the owner's bounds, to be searched for pairs.
 struct BorderElement {
   Vec3 position = Vec3::Zero();
+  Vec3 velocity = Vec3::Zero();
   double radius = 0;  ///< bounding [m]
 };
 
@@ -39,7 +40,8 @@ struct StepMessage {
 /// A ghost that the owner wants in the host's world for the next substep.
 struct GhostOrder {
   std::uint32_t element = 0;
-  std::uint32_t copies = 0;
+  bool carries = false;  ///< see Body
+  double share = 0;      ///< of the element's mass
   ElementState start;
 };
 

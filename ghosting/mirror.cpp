@@ -11,7 +11,12 @@ namespace {
 class Mirror final : public Coupling {
  public:
   bool hosts(SubModelId, SubModelId) const override { return true; }
-  double mass_share(std::size_t) const override { return 1.0; }
+  void share_out(SharedElement& shared, SubModelId owner) const override {
+    for (Copy& c : shared.copies) {
+      c.share = 1;
+      c.carries = c.world != owner;
+    }
+  }
 
   double combine(SharedElement& shared, std::span<const CopyMotion> motions,
                  const CouplingContext& context) const override {

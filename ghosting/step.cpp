@@ -95,8 +95,8 @@ void SubModel::report_border(const HostLink& link, std::vector<BorderElement>& b
   // The owner's bounds are a substep old: its elements have moved at most this far since.
   const double reach = 1.5 * context_.skin + 2 * link.max_speed * context_.world.substep;
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (link.bounds.distance(motions_[i].position) <= radius_[i] + reach)
-      border.push_back({motions_[i].position, radius_[i]});
+    if (link.bounds.within(radius_[i] + reach, motions_[i].position))
+      border.push_back({motions_[i].position, motions_[i].twist.linear, radius_[i]});
   }
 }
 

@@ -152,7 +152,7 @@ void SubModel::set_neighbours(std::span<const Neighbour> neighbours) {
     }
     if (context_.coupling->hosts(n.id, id_)) {
       const auto same = std::find_if(old_owners.begin(), old_owners.end(), [&](auto& l) { return l.host == n.id; });
-      owner_links_.push_back(same == old_owners.end() ? OwnerLink{n.id, false, {}, {}, {}, n.bonds, {}}
+      owner_links_.push_back(same == old_owners.end() ? OwnerLink{n.id, false, {}, {}, {}, n.bonds, {}, {}}
                                                       : std::move(*same));
     }
   }

@@ -69,12 +69,13 @@ struct HostLink {
 /// `host` has ghosts of this sub-model's elements.
 struct OwnerLink {
   SubModelId host = 0;
-  bool border_is_new = false;         ///< the host asks for its ghosts to be chosen anew
-  std::vector<BorderElement> border;  ///< the host's elements near our bounds
-  std::vector<std::uint32_t> hosted;  ///< our elements that have a ghost there, ascending
-  std::vector<std::uint32_t> shared;  ///< places of these among the shared elements
-  std::vector<CrossBond> bonds;       ///< alive; own = the element that needs a ghost there
-  std::vector<GhostResult> results;   ///< of the last step; at rest, of the last before it
+  bool border_is_new = false;          ///< the host asks for its ghosts to be chosen anew
+  std::vector<BorderElement> border;   ///< the host's elements near our bounds
+  std::vector<std::uint32_t> hosted;   ///< our elements that have a ghost there, ascending
+  std::vector<std::uint32_t> shared;   ///< places of these among the shared elements
+  std::vector<CrossBond> bonds;        ///< alive; own = the element that needs a ghost there
+  std::vector<std::uint32_t> meeting;  ///< our elements that touch something there, or are about to, ascending
+  std::vector<GhostResult> results;    ///< of the last step; at rest, of the last before it
 };
 
 class SubModel final : public runtime::SubModel {
@@ -164,13 +165,20 @@ class SubModel final : public runtime::SubModel {
   void update_bounds();
   bool choose_ghosts();
   bool choose_hosted(OwnerLink& link);
-  void find_touching(const OwnerLink& link, std::vector<std::uint32_t>& out);
+  void find_touching(OwnerLink& link, std::vector<std::uint32_t>& out);
   void update_shared();
   void locate_hosted();
   ElementState start_of(const SharedElement& shared, SubModelId world) const;
+  void start_all_shared();
   void start_shared(SharedElement& shared);
   void unshare(const SharedElement& shared);
   void send_ghosts(const OwnerLink& link, runtime::Port& port);
+
+  bool about_to_meet(const BodyMotion& own, double radius, const BorderElement& other) const;
+  void note_meetings();
+  void note_meetings_at(const OwnerLink& link);
+  void note_meetings_here();
+  void list_bodies_here();
 
   bool driven(const runtime::Round& round) const;
   bool still(const runtime::Round& round) const;
@@ -229,6 +237,7 @@ class SubModel final : public runtime::SubModel {
   BoundMessage bound_message_;
   CellGrid<double> grid_;
   std::vector<std::array<double, 3>> points_;
+  std::vector<BorderElement> here_;
   std::vector<std::uint32_t> found_;
   std::vector<CopyMotion> copy_motions_;
   std::vector<std::pair<std::uint32_t, SubModelId>> wanted_;  ///< element, host

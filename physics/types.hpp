@@ -73,7 +73,12 @@ struct Bounds {
     return (min.array() <= o.max.array()).all() && (o.min.array() <= max.array()).all();
   }
   /// Distance from a point to the box [m]; 0 inside.
-  double distance(const Vec3& p) const { return (min - p).cwiseMax(p - max).cwiseMax(Vec3::Zero()).norm(); }
+  double distance(const Vec3& p) const { return beyond(p).norm(); }
+  /// Whether a point is that close to the box [m].
+  bool within(double reach, const Vec3& p) const { return beyond(p).squaredNorm() <= reach * reach; }
+
+ private:
+  Vec3 beyond(const Vec3& p) const { return (min - p).cwiseMax(p - max).cwiseMax(Vec3::Zero()); }
 };
 
 }  // namespace moraine

@@ -55,7 +55,8 @@ struct WorldSettings {
   const Scene* scene = nullptr;  ///< shapes, materials and boundaries are read from here; outlives the world
 };
 
-/// A body as the world is asked to add it. Mass is the copy's share of the element's mass.
+/// A body as the world is asked to add it. Mass is the copy's share of the element's mass. A copy that carries starts
+/// substeps with a load that it bears for the element's other copies, in the form of a velocity, which is no approach.
 struct Body {
   ElementId id = 0;
   std::uint32_t shape = 0;
@@ -63,6 +64,7 @@ struct Body {
   double mass = 0;
   Role role = Role::real;
   ElementState state;
+  bool carries = false;
 };
 
 /// The part of a body's state that every step looks at.
@@ -120,8 +122,8 @@ class World {
   virtual Vec3 position(Slot slot) const { return state(slot).pose.position; }
   /// Motions of many bodies at once, in the order asked for.
   virtual void motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const;
-  /// Changes the copy's share of the element's mass; inertia follows in proportion.
-  virtual void set_mass(Slot slot, double mass) = 0;
+  /// Changes the copy's share of the element's mass, in proportion to which inertia follows, and whether it carries.
+  virtual void set_mass(Slot slot, double mass, bool carries) = 0;
   virtual void apply_impulse(Slot slot, const Impulse& impulse) = 0;
 
   /// Adds scene bond `bond` between two bodies of this world; dropped again with remove_bond or when it breaks.

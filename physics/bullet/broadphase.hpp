@@ -19,7 +19,7 @@ struct BodyTag {
   std::uint32_t material = 0;
   btScalar bounding_radius = 0;  ///< scaled; unused for boundaries
   bool spherical = false;
-  bool shared = false;  ///< one of several copies of an element, in several worlds
+  bool carries = false;  ///< see Body
   bool is_boundary() const { return key & boundary_bit; }
 };
 

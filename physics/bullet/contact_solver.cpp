@@ -43,7 +43,7 @@ void apply(btSolverConstraint& row, btSolverBody& a, btSolverBody& b, btScalar i
   push(b, row.m_contactNormal2, row.m_angularComponentB, impulse);
 }
 
-bool is_shared(const btSolverBody& b) { return b.m_originalBody && tag(b.m_originalBody).shared; }
+bool carries(const btSolverBody& b) { return b.m_originalBody && tag(b.m_originalBody).carries; }
 
 /// Two tangents share the smaller of their inverse masses: then a sliding contact's impulse is parallel to its slip.
 void share_inverse_mass(btSolverConstraint& s, btSolverConstraint& t) {
@@ -79,14 +79,14 @@ btScalar ContactSolver::parting(const btSolverConstraint& row) const {
   return opening(row, a.m_linearVelocity, a.m_angularVelocity, b.m_linearVelocity, b.m_angularVelocity);
 }
 
-bool ContactSolver::of_shared(const btSolverConstraint& row) const {
-  return is_shared(m_tmpSolverBodyPool[row.m_solverBodyIdA]) || is_shared(m_tmpSolverBodyPool[row.m_solverBodyIdB]);
+bool ContactSolver::of_carriers(const btSolverConstraint& row) const {
+  return carries(m_tmpSolverBodyPool[row.m_solverBodyIdA]) || carries(m_tmpSolverBodyPool[row.m_solverBodyIdB]);
 }
 
 void ContactSolver::prepare_impact(btSolverConstraint& row, const btContactSolverInfo& info) {
   btManifoldPoint& p = *static_cast<btManifoldPoint*>(row.m_originalContactPoint);
   const btScalar overlap = -p.getDistance(), parting_speed = parting(row);
-  const bool impact = -parting_speed > info.m_restitutionVelocityThreshold && !of_shared(row);
+  const bool impact = -parting_speed > info.m_restitutionVelocityThreshold && !of_carriers(row);
   if (impact && overlap < 0 && p.m_combinedRestitution > 0) row.m_rhs = off;
   const btScalar left = impact ? overlap : std::min(overlap, impact_overlap(p));
   if (left > negligible_overlap) {

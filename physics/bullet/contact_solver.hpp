@@ -22,9 +22,8 @@ namespace moraine::bullet {
 ///
 /// Tangential impulses start from those of the last step, as normal ones do; Bullet 3.24 lets them start from none.
 ///
-/// Contacts of elements that live in several worlds are left as Bullet has them, but for the cone: such elements enter
-/// the step with the impulses that the coupling carries, which look like approach and already hold part of the
-/// friction.
+/// Contacts of bodies that carry (see Body) are left as Bullet has them, but for the cone: such bodies enter the step
+/// with impulses that look like approach and already hold part of the friction.
 ///
 /// Joints are not solved; there are none.
 class ContactSolver : public btSequentialImpulseConstraintSolver {
@@ -40,7 +39,7 @@ class ContactSolver : public btSequentialImpulseConstraintSolver {
 
  private:
   btScalar parting(const btSolverConstraint& row) const;
-  bool of_shared(const btSolverConstraint& row) const;
+  bool of_carriers(const btSolverConstraint& row) const;
   void prepare_impact(btSolverConstraint& row, const btContactSolverInfo& info);
   static void take_back(btSolverConstraint& row, btScalar speed, btScalar rebound);
   void prepare_friction(const btSolverConstraint& normal, btScalar warm_start);

@@ -11,12 +11,12 @@ namespace moraine::bullet {
 namespace {
 
 constexpr std::uint32_t magic = is_double ? 0x4442574cU : 0x4d42574cU;  // "LWBD", "LWBM"
-constexpr std::uint32_t version = 3;
+constexpr std::uint32_t version = 4;
 
 struct BodyImage {
   std::uint32_t slot, id, shape, material;
-  std::uint8_t role;
-  double mass, whole_mass;
+  std::uint8_t role, carries;
+  double mass;
   btScalar basis[9], origin[3], linear[3], angular[3];
 };
 
@@ -110,7 +110,7 @@ void BulletWorld::save(std::vector<std::byte>& out) const {
     b.material = e.tag.material;
     b.role = static_cast<std::uint8_t>(e.role);
     b.mass = e.mass;
-    b.whole_mass = e.whole_mass;
+    b.carries = e.tag.carries;
     const btTransform& pose = e.body->getWorldTransform();
     for (int row = 0; row < 3; ++row) copy(pose.getBasis()[row], b.basis + 3 * row);
     copy(pose.getOrigin(), b.origin);
@@ -164,7 +164,7 @@ void BulletWorld::load(std::span<const std::byte> in) {
   std::vector<BodyImage> bodies;
   r.get_all(bodies);
   for (const BodyImage& b : bodies) {
-    place(b.slot, {b.id, b.shape, b.material, b.mass, static_cast<Role>(b.role), {}}, b.whole_mass);
+    place(b.slot, {b.id, b.shape, b.material, b.mass, static_cast<Role>(b.role), {}, b.carries != 0});
     btRigidBody& body = *entry(b.slot).body;
     const btMatrix3x3 basis(b.basis[0], b.basis[1], b.basis[2], b.basis[3], b.basis[4], b.basis[5], b.basis[6],
                             b.basis[7], b.basis[8]);

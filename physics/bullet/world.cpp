@@ -84,19 +84,18 @@ Slot BulletWorld::free_slot() {
 Slot BulletWorld::add(const Body& body) {
   check_limits();
   const Slot slot = free_slot();
-  place(slot, body, body.mass);
+  place(slot, body);
   return slot;
 }
 
-void BulletWorld::place(Slot slot, const Body& body, double whole_mass) {
+void BulletWorld::place(Slot slot, const Body& body) {
   Entry& e = entry(slot);
   const Shape& s = settings_.scene->shapes[body.shape];
   e.tag = {body.id, body.material, static_cast<btScalar>(s.bounding_radius / units_.length), s.sphere() != nullptr};
   e.shape = body.shape;
   e.role = body.role;
   e.mass = body.mass;
-  e.whole_mass = whole_mass;
-  e.tag.shared = body.role == Role::ghost || body.mass < whole_mass;
+  e.tag.carries = body.carries;
   btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(body.mass / units_.mass), nullptr,
                                                 shape(body.shape), inertia(body.shape, body.mass));
   e.body = std::make_unique<btRigidBody>(info);
@@ -150,11 +149,11 @@ btVector3 BulletWorld::inertia(std::uint32_t shape, double mass) const {
   return Units::raw(Vec3(per_mass * (mass / units_.mass)));
 }
 
-void BulletWorld::set_mass(Slot slot, double mass) {
+void BulletWorld::set_mass(Slot slot, double mass, bool carries) {
   Entry& e = entry(slot);
+  e.tag.carries = carries;
   if (e.mass == mass) return;
   e.mass = mass;
-  e.tag.shared = e.role == Role::ghost || mass < e.whole_mass;
   e.body->setMassProps(static_cast<btScalar>(mass / units_.mass), inertia(e.shape, mass));
   e.body->setGravity(dynamics_.getGravity());  // Bullet keeps gravity as a force, which scales with the mass
   e.body->updateInertiaTensor();

@@ -26,7 +26,7 @@ class BulletWorld final : public World {
   ElementState state(Slot slot) const override;
   Vec3 position(Slot slot) const override;
   void motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const override;
-  void set_mass(Slot slot, double mass) override;
+  void set_mass(Slot slot, double mass, bool carries) override;
   void apply_impulse(Slot slot, const Impulse& impulse) override;
 
   void add_bond(std::uint32_t bond, Slot a, Slot b) override;
@@ -50,14 +50,13 @@ class BulletWorld final : public World {
     BodyTag tag;
     std::uint32_t shape = 0;
     Role role = Role::real;
-    double mass = 0;        ///< SI
-    double whole_mass = 0;  ///< SI; of all copies together, if this is a real one
+    double mass = 0;  ///< SI
   };
 
   Entry& entry(Slot slot) { return *entries_[slot]; }
   const Entry& entry(Slot slot) const { return *entries_[slot]; }
   Slot free_slot();
-  void place(Slot slot, const Body& body, double whole_mass);
+  void place(Slot slot, const Body& body);
   void check_limits() const;
   btCollisionShape* shape(std::uint32_t index);
   btVector3 inertia(std::uint32_t shape, double mass) const;

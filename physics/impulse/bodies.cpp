@@ -12,8 +12,8 @@ Slot Bodies::add(const Body& body, const Shape& shape) {
   material.push_back(body.material);
   attitude.emplace_back();
   ghost.push_back(body.role == Role::ghost);
-  set_mass(place(slot), body.mass);
-  whole.push_back(moving.back().inverse_mass());
+  carries.emplace_back();
+  set_mass(place(slot), body.mass, body.carries);
   set_state(place(slot), body.state);
   return slot;
 }
@@ -48,7 +48,7 @@ void Bodies::settle() {
   native::reorder(material, roster.order());
   native::reorder(attitude, roster.order());
   native::reorder(ghost, roster.order());
-  native::reorder(whole, roster.order());
+  native::reorder(carries, roster.order());
 }
 
 void Bodies::fall(const Vec& change, bool remember) {

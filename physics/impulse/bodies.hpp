@@ -35,12 +35,13 @@ class Bodies {
   float radius(Place p) const { return position[p].w(); }
 
   Slot add(const Body& body, const Shape& shape);
-  void set_mass(Place p, double mass) { moving[p].turning.w() = static_cast<float>(units_.mass / mass); }
+  void set_mass(Place p, double mass, bool bears) {
+    moving[p].turning.w() = static_cast<float>(units_.mass / mass);
+    carries[p] = bears;
+  }
   void set_state(Place p, const ElementState& state);
   ElementState state(Place p) const { return {{units_.position(position[p]), orientation(p)}, twist(p)}; }
   Twist twist(Place p) const;
-  /// Other worlds hold copies of it.
-  bool shared(Place p) const { return ghost[p] || moving[p].inverse_mass() > whole[p]; }
   /// A change of velocities by an impulse in SI.
   void push(Place p, const Impulse& impulse);
 
@@ -58,7 +59,7 @@ class Bodies {
   std::vector<Vec> before;    ///< velocities at the start of the step, if anything rebounds
   std::vector<Vec> attitude;  ///< quaternions x, y, z, w
   std::vector<std::uint8_t> ghost;
-  std::vector<float> whole;  ///< inverse mass when added
+  std::vector<std::uint8_t> carries;  ///< see Body
 
  private:
   Quat orientation(Place p) const;

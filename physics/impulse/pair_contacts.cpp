@@ -154,12 +154,8 @@ void PairContacts::restore(std::span<const PairRow> rows) {
 }
 
 BodyArrays PairContacts::arrays(Bodies& bodies) {
-  return {bodies.moving.data()->velocity.data(),
-          numbers_of(bodies.position),
-          bodies.material.data(),
-          bodies.ghost.data(),
-          bodies.whole.data(),
-          numbers_of(bodies.before)};
+  return {bodies.moving.data()->velocity.data(), numbers_of(bodies.position), bodies.material.data(),
+          bodies.carries.data(), numbers_of(bodies.before)};
 }
 
 PairTable PairContacts::table() { return {pairs_.lower(), pairs_.higher(), pairs_.size(), numbers_of(carried_)}; }

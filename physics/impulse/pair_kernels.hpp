@@ -34,9 +34,8 @@ struct BodyArrays {
   float* moving = nullptr;          ///< from 8 i: velocity, 0, radius times angular velocity, inverse mass
   const float* position = nullptr;  ///< from 4 i: x, y, z, radius
   const std::uint32_t* material = nullptr;
-  const std::uint8_t* ghost = nullptr;
-  const float* whole = nullptr;   ///< inverse mass of an element that is not shared
-  const float* before = nullptr;  ///< from 4 i: velocity at the start of the step; read if anything rebounds
+  const std::uint8_t* carries = nullptr;  ///< see Body
+  const float* before = nullptr;          ///< from 4 i: velocity at the start of the step; read if anything rebounds
 };
 
 /// Pairs that may meet, and what their contacts carry on from the step before.

@@ -75,13 +75,10 @@ MORAINE_INLINE Laws laws(const PairLaws& table, const BodyArrays& bodies, const 
 MORAINE_INLINE F8 rebound_of(const F8& closing, const F8& restitution, const StepNumbers& n) {
   return choose(closing > all(n.threshold), restitution * closing, all(0));
 }
-/// Of these none is shared, so that they may meet when they overlap.
+/// Of these none carries, so that they may meet when they overlap.
 MORAINE_INLINE I8 alone(const BodyArrays& bodies, const std::uint32_t* a, const std::uint32_t* b) {
-  const auto shared = [&](std::uint32_t p) __attribute__((always_inline)) {
-    return bodies.ghost[p] != 0 || bodies.moving[8 * p + 7] > bodies.whole[p];
-  };
   std::int32_t alone[batch_lanes];
-  for (std::size_t k = 0; k < batch_lanes; ++k) alone[k] = shared(a[k]) || shared(b[k]) ? 0 : -1;
+  for (std::size_t k = 0; k < batch_lanes; ++k) alone[k] = (bodies.carries[a[k]] | bodies.carries[b[k]]) != 0 ? 0 : -1;
   I8 out;
   __builtin_memcpy(&out, alone, sizeof out);
   return out;
@@ -138,7 +135,7 @@ MORAINE_INLINE void apply(const PairBatch& batch, Bodies8 m, const Wide& impulse
   }
 }
 
-/// Copies of a shared body start a step with the velocity of the load that they carry: in a contact that lasts, that is
+/// Bodies that carry start a step with the velocity of that load: in a contact that lasts, that is
 /// no impact, and a rebound from it would raise energy. After an impact, rebounds of the steps that follow get smaller.
 template <bool Restitution>
 MORAINE_INLINE void prepare(PairBatch& batch, const PairStartTask& task, const F8& mass, const Lie& l,
@@ -152,12 +149,12 @@ MORAINE_INLINE void prepare(PairBatch& batch, const PairStartTask& task, const F
   if constexpr (Restitution) {
     const Wide before_a = gather(task.bodies.before, batch.a, 4).xyz,
                before_b = gather(task.bodies.before, batch.b, 4).xyz;
-    const I8 none_shared = alone(task.bodies, batch.a, batch.b);
+    const I8 none_carries = alone(task.bodies, batch.a, batch.b);
     const F8 fresh = rebound_of(dot(l.normal, before_b - before_a), law.restitution, n);
     const F8 limit = all(-StepNumbers::again) * carried;
     const F8 again = choose(limit > all(n.threshold), smaller(fresh, limit), all(0));
-    rebound = choose(none_shared | (carried == all(0)), fresh, again);
-    const I8 bounces = (rebound > all(0)) & none_shared;
+    rebound = choose(none_carries | (carried == all(0)), fresh, again);
+    const I8 bounces = (rebound > all(0)) & none_carries;
     hard |= bounces;
     approach = choose(bounces, -rebound, approach);
   }

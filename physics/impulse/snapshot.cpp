@@ -7,7 +7,7 @@ namespace moraine::impulse {
 namespace {
 
 constexpr std::uint32_t magic = 0x5049424dU;  // "MBIP"
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 
 /// Records of numbers without gaps between them, which Eigen does not let the compiler call trivial.
 template <class T>
@@ -47,7 +47,7 @@ void ImpulseWorld::save(std::vector<std::byte>& out) const {
   put_all(w, bodies_.material);
   put_all(w, bodies_.attitude);
   put_all(w, bodies_.ghost);
-  put_all(w, bodies_.whole);
+  put_all(w, bodies_.carries);
   put_all(w, pairs_.rows());
   put_all(w, walls_.rows());
   put_all(w, bonds_.entries());
@@ -65,7 +65,7 @@ void ImpulseWorld::load(std::span<const std::byte> in) {
   get_all(r, bodies_.material);
   get_all(r, bodies_.attitude);
   get_all(r, bodies_.ghost);
-  get_all(r, bodies_.whole);
+  get_all(r, bodies_.carries);
   pairs_.restore(get_all<PairRow>(r));
   walls_.restore(get_all<WallRow>(r));
   bonds_.clear();

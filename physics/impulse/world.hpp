@@ -24,7 +24,7 @@ class ImpulseWorld final : public World {
   ElementState state(Slot slot) const override { return bodies_.state(bodies_.place(slot)); }
   Vec3 position(Slot slot) const override { return units_.position(bodies_.position[bodies_.place(slot)]); }
   void motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const override;
-  void set_mass(Slot slot, double mass) override { bodies_.set_mass(bodies_.place(slot), mass); }
+  void set_mass(Slot slot, double mass, bool carries) override { bodies_.set_mass(bodies_.place(slot), mass, carries); }
   void apply_impulse(Slot slot, const Impulse& impulse) override;
 
   void add_bond(std::uint32_t bond, Slot a, Slot b) override { bonds_.add({bond, a, b, 0}); }

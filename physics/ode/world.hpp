@@ -46,7 +46,9 @@ class OdeWorld final : public World {
   ElementState state(Slot slot) const override { return bodies_.state(bodies_.place(slot)); }
   Vec3 position(Slot slot) const override { return bodies_.position(bodies_.place(slot)); }
   void motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const override;
-  void set_mass(Slot slot, double mass) override { bodies_.records[bodies_.place(slot)].mass = mass / units_.mass; }
+  void set_mass(Slot slot, double mass, bool) override {
+    bodies_.records[bodies_.place(slot)].mass = mass / units_.mass;
+  }
   void apply_impulse(Slot slot, const Impulse& impulse) override { bodies_.push(bodies_.place(slot), impulse); }
 
   void add_bond(std::uint32_t bond, Slot a, Slot b) override { bonds_.add({bond, a, b}); }

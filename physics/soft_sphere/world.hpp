@@ -26,7 +26,7 @@ class SoftSphereWorld final : public World {
   ElementState state(Slot slot) const override { return bodies_.state(bodies_.place(slot)); }
   Vec3 position(Slot slot) const override { return bodies_.position[bodies_.place(slot)]; }
   void motions(std::span<const Slot> slots, std::vector<BodyMotion>& out) const override;
-  void set_mass(Slot slot, double mass) override { bodies_.set_mass(bodies_.place(slot), mass); }
+  void set_mass(Slot slot, double mass, bool) override { bodies_.set_mass(bodies_.place(slot), mass); }
   void apply_impulse(Slot slot, const Impulse& impulse) override;
 
   void add_bond(std::uint32_t bond, Slot a, Slot b) override;

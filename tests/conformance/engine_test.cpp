@@ -236,7 +236,7 @@ TEST_P(EngineContract, GhostsMeetRealElementsOnly) {
 
 TEST_P(EngineContract, MassIsWhatImpulsesFeelAndGravityDoesNot) {
   SingleWorld w(engine(), scene_of(balls("{id: 1, at: [0, 0, 0], mass: 8}, {id: 2, at: [5, 0, 0], mass: 8}")));
-  w.world().set_mass(w.slot(1), 2);
+  w.world().set_mass(w.slot(1), 2, false);
   const Impulse push{Vec3(4, 0, 0), Vec3(0, 0, 0.1)};
   for (const ElementId id : {1U, 2U}) w.world().apply_impulse(w.slot(id), push);
   EXPECT_NEAR(w.velocity(1).x(), 2, 1e-5);

@@ -22,7 +22,7 @@ class SpringWorld final : public World {
   void remove(Slot slot) override { roster_.remove(slot); }
   void set_state(Slot slot, const ElementState& state) override { bodies_[roster_.place(slot)].state = state; }
   ElementState state(Slot slot) const override { return bodies_[roster_.place(slot)].state; }
-  void set_mass(Slot slot, double mass) override { bodies_[roster_.place(slot)].mass = mass; }
+  void set_mass(Slot slot, double mass, bool) override { bodies_[roster_.place(slot)].mass = mass; }
   void apply_impulse(Slot slot, const Impulse& impulse) override {
     Body& b = bodies_[roster_.place(slot)];
     const double inertia = b.mass * scene_.shapes[b.shape].inertia_per_mass.x();

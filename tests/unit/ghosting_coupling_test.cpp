@@ -1,141 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of the coupling one by one: consensus, messages, neighbours, the cell grid.
+// The parts of the coupling one by one: messages, neighbours, the cell grid.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
-#include <set>
 
 #include "ghosting/coupling.hpp"
 #include "ghosting/messages.hpp"
 #include "ghosting/neighbours.hpp"
 #include "physics/cell_grid.hpp"
 #include "physics/errors.hpp"
+#include "tests/support/dice.hpp"
 
 namespace moraine {
 namespace {
 
-class Dice {
- public:
-  explicit Dice(unsigned seed) : random_(seed) {}
-  double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  Vec3 vec(double reach) { return {in(-reach, reach), in(-reach, reach), in(-reach, reach)}; }
-  Quat turn() { return Quat(in(-1, 1), in(-1, 1), in(-1, 1), in(-1, 1)).normalized(); }
-  CopyMotion motion() { return {vec(0.1), vec(0.1), {vec(3), vec(3)}}; }
-
- private:
-  std::mt19937 random_;
-};
-
-std::vector<SubModelId> pick(Dice& dice, SubModelId owner) {
-  std::set<SubModelId> worlds{owner};
-  const int ghosts = static_cast<int>(dice.in(0, 5));
-  for (int k = 0; k < ghosts; ++k) worlds.insert(static_cast<SubModelId>(dice.in(0, 9)));
-  return {worlds.begin(), worlds.end()};
-}
-
-Twist carried(const SharedElement& shared) {
-  Twist sum;
-  for (const Copy& c : shared.copies) {
-    sum.linear += c.offset.linear;
-    sum.angular += c.offset.angular;
-  }
-  return sum;
-}
-
-TEST(Consensus, HostsOnOneSideOfACut) {
-  const auto c = make_consensus();
-  for (SubModelId a = 0; a < 5; ++a)
-    for (SubModelId b = 0; b < 5; ++b) EXPECT_TRUE(a == b || c->hosts(a, b) != c->hosts(b, a)) << a << " " << b;
-}
-
-TEST(Consensus, CopiesShareTheMass) {
-  for (const std::size_t copies : {1U, 2U, 3U, 8U})
-    EXPECT_NEAR(make_consensus()->mass_share(copies) * static_cast<double>(copies), 1, 1e-15);
-}
-
-TEST(Consensus, MeanHasTheMomentumOfTheCopies) {
-  Dice dice(1);
-  const auto consensus = make_consensus();
-  SharedElement shared;
-  shared.start.pose.position = Vec3(5, 6, 7);
-  shared.copies = {Copy::in(0), Copy::in(2), Copy::in(3)};
-  const std::vector<CopyMotion> motions{dice.motion(), dice.motion(), dice.motion()};
-  const double disagreement = consensus->combine(shared, motions, {2, Vec3::Zero(), 0.85});
-  const double share = consensus->mass_share(3);
-  Vec3 p = Vec3::Zero(), l = Vec3::Zero(), x = Vec3::Zero();
-  for (const CopyMotion& m : motions) {
-    p += share * m.twist.linear;
-    l += share * m.twist.angular;
-    x += share * m.displacement;
-  }
-  EXPECT_LT((shared.state.twist.linear - p).norm(), 1e-14);
-  EXPECT_LT((shared.state.twist.angular - l).norm(), 1e-14);
-  EXPECT_LT((shared.state.pose.position - Vec3(5, 6, 7) - x).norm(), 1e-14);
-  EXPECT_NEAR(shared.state.pose.orientation.norm(), 1, 1e-15);
-  EXPECT_GT(disagreement, 0);
-}
-
-TEST(Consensus, CopiesThatAgreeCarryNothing) {
-  Dice dice(2);
-  SharedElement shared;
-  shared.copies = {Copy::in(0), Copy::in(1)};
-  const CopyMotion motion = dice.motion();
-  const std::vector<CopyMotion> motions{motion, motion};
-  EXPECT_EQ(make_consensus()->combine(shared, motions, {}), 0);
-  EXPECT_LT(shared.copies[0].offset.linear.norm() + shared.copies[1].offset.angular.norm(), 1e-14);
-  EXPECT_LT((shared.state.pose.orientation.coeffs() - rotated(Quat::Identity(), motion.rotation).coeffs()).norm(),
-            1e-15);
-}
-
-/// At rest on one copy of two: the other must come to carry half the weight of the element.
-TEST(Consensus, LoadThatOneCopyCarriesIsPassedOn) {
-  const auto consensus = make_consensus();
-  const Vec3 gravity_step(0, 0, -0.1);
-  SharedElement shared;
-  shared.copies = {Copy::in(0), Copy::in(1)};
-  for (int k = 0; k < 200; ++k) {
-    CopyMotion held, falls;  // copy 0 stands on something, copy 1 feels gravity and what it carries only
-    falls.twist.linear = shared.state.twist.linear + shared.copies[1].offset.linear + gravity_step;
-    consensus->combine(shared, std::vector<CopyMotion>{held, falls}, {0, gravity_step, 1.0});
-  }
-  EXPECT_NEAR(shared.copies[1].offset.linear.z(), 0.1, 1e-12);
-  EXPECT_NEAR(shared.copies[0].offset.linear.z(), -0.1, 1e-12);
-  EXPECT_NEAR(shared.state.twist.linear.z(), 0, 1e-12);
-}
-
-TEST(Consensus, OffsetsSumToNothingWhateverCopiesComeAndGo) {
-  for (unsigned seed = 0; seed < 50; ++seed) {
-    Dice dice(seed);
-    const auto consensus = make_consensus();
-    const auto owner = static_cast<SubModelId>(dice.in(0, 9));
-    SharedElement shared;
-    shared.copies = {Copy::in(owner)};
-    for (int k = 0; k < 40; ++k) {
-      const std::vector<SubModelId> worlds = pick(dice, owner);
-      consensus->change_copies(shared, worlds, owner);
-      ASSERT_EQ(shared.copies.size(), worlds.size());
-      for (std::size_t c = 0; c < worlds.size(); ++c) ASSERT_EQ(shared.copies[c].world, worlds[c]);
-      std::vector<CopyMotion> motions;
-      for (std::size_t c = 0; c < worlds.size(); ++c) motions.push_back(dice.motion());
-      consensus->combine(shared, motions, {owner, Vec3::Zero(), 0.85});
-      ASSERT_LT(carried(shared).linear.norm() + carried(shared).angular.norm(), 1e-12);
-    }
-    consensus->change_copies(shared, std::vector<SubModelId>{owner}, owner);
-    EXPECT_LT(carried(shared).linear.norm() + carried(shared).angular.norm(), 1e-12) << "alone, it carries nothing";
-  }
-}
-
-TEST(Consensus, NewCopiesStartWithNothingAndOldOnesKeepTheirLoad) {
-  SharedElement shared;
-  shared.copies = {{1, {Vec3(1, 0, 0), Vec3(0, 2, 0)}, {}}, {4, {Vec3(-1, 0, 0), Vec3(0, -2, 0)}, {}}};
-  const auto consensus = make_consensus();
-  consensus->change_copies(shared, std::vector<SubModelId>{1, 2, 4}, 1);
-  EXPECT_EQ(shared.copies[1].offset.linear, Vec3::Zero());
-  const double before = consensus->mass_share(2), after = consensus->mass_share(3);
-  EXPECT_NEAR(after * shared.copies[2].offset.linear.x(), before * -1, 1e-15);
-  EXPECT_NEAR(after * shared.copies[0].offset.angular.y(), before * 2, 1e-15);
-}
+using test::Dice;
 
 TEST(CouplingTable, ListsItselfIfAskedForAnother) {
   try {
@@ -165,7 +44,7 @@ StepMessage step_message() {
   Dice dice(7);
   StepMessage m;
   m.results = {{3, 0, dice.motion()}, {9, 0, dice.motion()}};
-  m.border = {{dice.vec(4), 0.5}, {dice.vec(4), 0.25}, {dice.vec(4), 1e-9}};
+  m.border = {{dice.vec(4), dice.vec(1), 0.5}, {dice.vec(4), dice.vec(1), 0.25}, {dice.vec(4), dice.vec(1), 1e-9}};
   m.broken_bonds = {1, 5, 4'000'000'000U};
   return m;
 }
@@ -175,7 +54,7 @@ BoundMessage bound_message() {
   BoundMessage m;
   m.bounds = {Vec3(-1, -2, -3), Vec3(4, 5, 6)};
   m.max_speed = 12.5;
-  m.ghosts = {{2, 3, {{dice.vec(9), dice.turn()}, {dice.vec(1), dice.vec(1)}}}};
+  m.ghosts = {{2, true, 0.25, {{dice.vec(9), dice.turn()}, {dice.vec(1), dice.vec(1)}}}};
   m.broken_bonds = {0, 7};
   return m;
 }
@@ -195,6 +74,7 @@ TEST(Messages, OfAStepComeBackAsTheyWere) {
   EXPECT_EQ(back.results[1].motion.twist.angular, m.results[1].motion.twist.angular);
   ASSERT_EQ(back.border.size(), 3U);
   EXPECT_EQ(back.border[2].position, m.border[2].position);
+  EXPECT_EQ(back.border[2].velocity, m.border[2].velocity);
   EXPECT_EQ(back.border[2].radius, 1e-9);
   EXPECT_EQ(back.broken_bonds, m.broken_bonds);
 }
@@ -210,7 +90,8 @@ TEST(Messages, OfBoundsComeBackAsTheyWere) {
   EXPECT_EQ(back.max_speed, 12.5);
   ASSERT_EQ(back.ghosts.size(), 1U);
   EXPECT_EQ(back.ghosts[0].element, 2U);
-  EXPECT_EQ(back.ghosts[0].copies, 3U);
+  EXPECT_EQ(back.ghosts[0].share, 0.25);
+  EXPECT_TRUE(back.ghosts[0].carries);
   EXPECT_EQ(back.ghosts[0].start.pose.position, m.ghosts[0].start.pose.position);
   EXPECT_EQ(back.ghosts[0].start.pose.orientation.coeffs(), m.ghosts[0].start.pose.orientation.coeffs());
   EXPECT_EQ(back.ghosts[0].start.twist.angular, m.ghosts[0].start.twist.angular);

@@ -39,10 +39,7 @@ void expect_invariants(const CoupledModel& model) {
       }
     for (const SharedElement& s : part.shared()) {
       Twist sum;
-      for (const Copy& c : s.copies) {
-        sum.linear += c.offset.linear;
-        sum.angular += c.offset.angular;
-      }
+      for (const Copy& c : s.copies) sum += c.share * c.offset;
       EXPECT_LT(sum.linear.norm(), 1e-13 * (10 + s.state.twist.linear.norm())) << "element " << s.element;
       EXPECT_LT(sum.angular.norm(), 1e-13 * (100 + s.state.twist.angular.norm())) << "element " << s.element;
     }

@@ -17,9 +17,9 @@ constexpr std::uint32_t bodies = 64;
 /// Random balls that move, spin and overlap a little, and pairs of them that carried something. Those of the first
 /// seven in a group of eight share no body.
 struct Sample {
-  std::vector<float> moving, before, position, whole, carried;
+  std::vector<float> moving, before, position, carried;
   std::vector<std::uint32_t> material, lower, higher, pairs, close, meeting;
-  std::vector<std::uint8_t> ghost;
+  std::vector<std::uint8_t> carries;
   std::vector<PairConstants> law{{0.5F, 0.3F}, {0.2F, 0}, {0.2F, 0}, {0, 0.8F}};
   std::vector<PairBatch> batches;
   StepNumbers numbers;
@@ -40,9 +40,8 @@ struct Sample {
       }
       before.push_back(0);
       position[4 * i + 3] = number(0.3F, 0.5F);
-      whole.push_back(moving[8 * i + 7] * (random() % 4 == 0 ? 0.5F : 1));
       material.push_back(random() % 2);
-      ghost.push_back(random() % 4 == 0);
+      carries.push_back(random() % 4 == 0);
     }
     for (std::uint32_t k = 0; k + 1 < bodies; k += 2) {
       lower.push_back(k);
@@ -55,9 +54,7 @@ struct Sample {
     std::memset(batches.data(), 0, sizeof(PairBatch) * batches.size());
   }
 
-  BodyArrays arrays() {
-    return {moving.data(), position.data(), material.data(), ghost.data(), whole.data(), before.data()};
-  }
+  BodyArrays arrays() { return {moving.data(), position.data(), material.data(), carries.data(), before.data()}; }
   PairTable table() { return {lower.data(), higher.data(), lower.size(), carried.data()}; }
 
   void find(const PairKernels& kernels) {

@@ -124,8 +124,8 @@ INSTANTIATE_TEST_SUITE_P(Table, Restitution,
 
 class ElasticGas : public testing::TestWithParam<const char*> {};
 
-/// A gas of elastic spheres in a box keeps its energy over thousands of impacts. Measured: bullet 4e-4, impulse 7.3e-3.
-TEST_P(ElasticGas, KeepsItsEnergy) {
+/// Energy after 15 s, thousands of impacts, as a part of that at the start.
+double energy_kept(const std::string& engine, int parts) {
   ModelRun run(scene_of(R"(gravity: [0, 0, 0]
 materials: {ball: {density: 1, friction: 0, restitution: 1}}
 elements:
@@ -133,15 +133,22 @@ elements:
      velocity: [1, 0.6, 0.3], material: ball}
 boundaries: [{box: [[0, 0, 0], [10, 10, 10]], material: ball}]
 time: {dt: 1 / 240, duration: 15}
-run: {sub_models: 1}
 )",
-                        {set("run.engine", GetParam())}));
+                        {set("run.engine", engine), set("run.sub_models", parts)}));
   const double before = run.kinetic_energy();
   run.go();
-  RecordProperty("energy", fmt::format("{:.6f}", run.kinetic_energy() / before));
-  const double bound = std::string_view(GetParam()) == "impulse" ? 1e-2 : 2e-3;
-  EXPECT_NEAR(run.kinetic_energy(), before, bound * before);
+  const double kept = run.kinetic_energy() / before;
+  testing::Test::RecordProperty(fmt::format("energy_in_{}", parts), fmt::format("{:.6f}", kept));
+  return kept;
 }
+
+/// Measured: bullet 4e-4, impulse 7.3e-3.
+TEST_P(ElasticGas, KeepsItsEnergy) {
+  EXPECT_NEAR(energy_kept(GetParam(), 1), 1, std::string_view(GetParam()) == "impulse" ? 1e-2 : 2e-3);
+}
+
+/// Spheres that meet others in two worlds at once lose some: 12 and 14 %.
+TEST_P(ElasticGas, KeepsMostOfItsEnergyWhenCut) { EXPECT_NEAR(energy_kept(GetParam(), 4), 1, 0.15); }
 
 INSTANTIATE_TEST_SUITE_P(Engines, ElasticGas, testing::ValuesIn(impulse_engines),
                          [](const auto& test) { return test.param; });

@@ -2,8 +2,10 @@
 // Piles at rest: cut ones must stand as quietly as whole ones, and floors must carry the weight.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include "tests/support/drops.hpp"
 #include "tests/support/model_run.hpp"
@@ -58,29 +60,39 @@ void expect_sound(const Rest& r, double energy) {
   EXPECT_LT(r.residual, 1e-5);
 }
 
-/// A cut may double what is left of motion and overlap at most.
-void expect_alike(const Rest& cut, const Rest& whole) {
-  EXPECT_LT(cut.energy, 2 * whole.energy);
+/// A cut may double what is left of motion and overlap at most. `chance`: by which energies differ without a cut.
+void expect_alike(const Rest& cut, const Rest& whole, double chance = 1) {
+  EXPECT_LT(cut.energy, 2 * chance * whole.energy);
   EXPECT_LT(cut.overlap, 2 * whole.overlap);
 }
 
-/// Into which of many packings a pile settles, and how many of its spheres stay loose, is chance: means over seeds of
-/// the starting positions are compared.
-Rest mean_over_seeds(const std::string& scene, int parts, double seconds) {
-  Rest mean;
-  for (const double seed : {1, 2, 3}) {
+double median(std::vector<double> of) {
+  std::nth_element(of.begin(), of.begin() + of.size() / 2, of.end());
+  return of[of.size() / 2];
+}
+
+/// Into which of many packings a pile settles, and how many of its spheres stay loose, is chance: most of the energy is
+/// theirs, and differs between seeds by a thousand times. So medians over seeds of the starting positions are compared,
+/// and those of nine seeds still differ by a factor of two.
+Rest median_over_seeds(const std::string& scene, int parts, double seconds) {
+  std::vector<double> energy, overlap, height;
+  for (const double seed : {1, 2, 3, 4, 5, 6, 7, 8, 9}) {
     const Rest r = settle(scene, parts, seconds, {set("seed", seed)});
     expect_sound(r, 1e-3);
-    mean.energy += r.energy / 3;
-    mean.overlap += r.overlap / 3;
-    mean.height += r.height / 3;
+    energy.push_back(r.energy);
+    overlap.push_back(r.overlap);
+    height.push_back(r.height);
   }
-  return mean;
+  Rest middle;
+  middle.energy = median(energy);
+  middle.overlap = median(overlap);
+  middle.height = median(height);
+  return middle;
 }
 
 TEST(AtRest, BoxSettlesAlikeWholeAndCut) {
-  const Rest whole = mean_over_seeds("box_settle", 1, 20), cut = mean_over_seeds("box_settle", 4, 20);
-  expect_alike(cut, whole);
+  const Rest whole = median_over_seeds("box_settle", 1, 20), cut = median_over_seeds("box_settle", 4, 20);
+  expect_alike(cut, whole, 2);
   EXPECT_NEAR(cut.height, whole.height, 0.02 * whole.height);
 }
 

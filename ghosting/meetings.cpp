@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meetings: which copies of shared elements touch something in their worlds, or are about to. By bounding spheres, so
+// rather too many than too few. Boundaries are not looked at: what meets nothing else than one is pushed by it.
+#include <algorithm>
+#include <cmath>
+
+#include "ghosting/mass_split.hpp"
+#include "ghosting/sub_model.hpp"
+
+namespace moraine {
+namespace {
+
+constexpr double meeting_gap = 0.1;  // bodies touch below this share of the skin
+
+}  // namespace
+
+/// Within one and a half of the coming substeps, as speeds are known a substep late.
+bool SubModel::about_to_meet(const BodyMotion& own, double radius, const BorderElement& other) const {
+  const Vec3 between = other.position - own.position;
+  const double contact = radius + other.radius + meeting_gap * context_.skin, distance2 = between.squaredNorm();
+  if (distance2 <= contact * contact) return true;
+  const double closing = between.dot(own.twist.linear - other.velocity);  // times the distance
+  if (closing <= 0) return false;
+  const double distance = std::sqrt(distance2);
+  return distance - 1.5 * closing / distance * context_.world.substep <= contact;
+}
+
+void SubModel::note_meetings() {
+  if (context_.followers()) return;
+  for (const OwnerLink& link : owner_links_) note_meetings_at(link);
+  note_meetings_here();
+}
+
+/// Which of the link's ghosts meet something there. Both lists ascend.
+void SubModel::note_meetings_at(const OwnerLink& link) {
+  auto meeting = link.meeting.begin();
+  for (std::size_t k = 0; k < link.hosted.size(); ++k) {
+    while (meeting != link.meeting.end() && *meeting < link.hosted[k]) ++meeting;
+    shared_[link.shared[k]].copy_in(link.host).meets = meeting != link.meeting.end() && *meeting == link.hosted[k];
+  }
+}
+
+/// Which real copies meet something here: only those are looked at that would be without mass for a ghost's sake.
+void SubModel::note_meetings_here() {
+  found_.clear();
+  for (std::uint32_t at = 0; at < shared_.size(); ++at) {
+    std::vector<Copy>& copies = shared_[at].copies;
+    Copy& real = shared_[at].copy_in(id_);
+    real.meets = false;
+    if (!busy(real) && std::any_of(copies.begin(), copies.end(), busy)) found_.push_back(at);
+  }
+  if (found_.empty()) return;
+  list_bodies_here();
+  for (const std::uint32_t at : found_) {
+    const std::uint32_t member = shared_[at].member;
+    bool& meets = shared_[at].copy_in(id_).meets;
+    const Vec3& x = motions_[member].position;
+    grid_.around({x.x(), x.y(), x.z()}, [&](std::uint32_t k) {
+      meets = meets || (k != member && about_to_meet(motions_[member], radius_[member], here_[k]));
+    });
+  }
+}
+
+/// The members, then the ghosts.
+void SubModel::list_bodies_here() {
+  here_.clear();
+  for (std::size_t i = 0; i < members_.size(); ++i)
+    here_.push_back({motions_[i].position, motions_[i].twist.linear, radius_[i]});
+  for (const HostLink& link : host_links_)
+    for (const Ghost& g : link.ghosts)
+      here_.push_back({world_->position(g.slot), g.start.twist.linear, context_.radius(g.element)});
+  points_.clear();
+  double largest = 0;
+  for (const BorderElement& b : here_) {
+    points_.push_back({b.position.x(), b.position.y(), b.position.z()});
+    largest = std::max(largest, b.radius);
+  }
+  grid_.build(points_, 2 * largest + context_.skin);
+}
+
+}  // namespace moraine
