@@ -22,8 +22,8 @@ struct Copy {
   Twist lasting;         ///< slow mean of the offset: the load it has carried for long
   double share = 0;      ///< of the element's mass and inertia
   bool carries = false;  ///< as the engine is told, see Body
-  bool meets = false;    ///< it touches something in its world, or is about to
-  std::int32_t unpushed = never;  ///< substeps since anything but gravity acted on it, at most that
+  bool meets = false;    ///< of a ghost: it touches something in its world, or is about to
+  std::int32_t unpushed = never;  ///< substeps since anything but gravity acted on it, or was about to; at most that
 
   /// A copy that carries nothing yet.
   static Copy in(SubModelId world) {

@@ -40,25 +40,27 @@ void SubModel::note_meetings_at(const OwnerLink& link) {
   }
 }
 
-/// Which real copies meet something here: only those are looked at that would be without mass for a ghost's sake.
+/// Which real copies meet something here: only those are looked at that would be without mass for a ghost's sake. To be
+/// about to meet something counts as a push, so that they are not looked at again before that is forgotten.
 void SubModel::note_meetings_here() {
   found_.clear();
   for (std::uint32_t at = 0; at < shared_.size(); ++at) {
-    std::vector<Copy>& copies = shared_[at].copies;
-    Copy& real = shared_[at].copy_in(id_);
-    real.meets = false;
-    if (!busy(real) && std::any_of(copies.begin(), copies.end(), busy)) found_.push_back(at);
+    const std::vector<Copy>& copies = shared_[at].copies;
+    if (!busy(shared_[at].copy_in(id_)) && std::any_of(copies.begin(), copies.end(), busy)) found_.push_back(at);
   }
   if (found_.empty()) return;
   list_bodies_here();
-  for (const std::uint32_t at : found_) {
-    const std::uint32_t member = shared_[at].member;
-    bool& meets = shared_[at].copy_in(id_).meets;
-    const Vec3& x = motions_[member].position;
-    grid_.around({x.x(), x.y(), x.z()}, [&](std::uint32_t k) {
-      meets = meets || (k != member && about_to_meet(motions_[member], radius_[member], here_[k]));
-    });
-  }
+  for (const std::uint32_t at : found_)
+    if (meets_here(shared_[at].member)) shared_[at].copy_in(id_).unpushed = 0;
+}
+
+bool SubModel::meets_here(std::uint32_t member) const {
+  const Vec3& x = motions_[member].position;
+  bool meets = false;
+  grid_.around({x.x(), x.y(), x.z()}, [&](std::uint32_t k) {
+    meets = meets || (k != member && about_to_meet(motions_[member], radius_[member], here_[k]));
+  });
+  return meets;
 }
 
 /// The members, then the ghosts.

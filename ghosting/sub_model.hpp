@@ -178,6 +178,7 @@ class SubModel final : public runtime::SubModel {
   void note_meetings();
   void note_meetings_at(const OwnerLink& link);
   void note_meetings_here();
+  bool meets_here(std::uint32_t member) const;
   void list_bodies_here();
 
   bool driven(const runtime::Round& round) const;
