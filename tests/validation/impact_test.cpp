@@ -147,7 +147,7 @@ TEST_P(ElasticGas, KeepsItsEnergy) {
   EXPECT_NEAR(energy_kept(GetParam(), 1), 1, std::string_view(GetParam()) == "impulse" ? 1e-2 : 2e-3);
 }
 
-/// Spheres that meet others in two worlds at once lose some: 12 and 14 %.
+/// Spheres that meet others in two worlds at once lose some: 9 and 13 %.
 TEST_P(ElasticGas, KeepsMostOfItsEnergyWhenCut) { EXPECT_NEAR(energy_kept(GetParam(), 4), 1, 0.15); }
 
 INSTANTIATE_TEST_SUITE_P(Engines, ElasticGas, testing::ValuesIn(impulse_engines),
