@@ -10,8 +10,6 @@ namespace {
 constexpr double drop_factor =
     1.5;  // ghosts are made below the skin and dropped above 1.5 skins, so they do not flicker
 
-std::array<double, 3> point(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
 }  // namespace
 
 void SubModel::bound_update(const runtime::Round& round, runtime::Port& port) {
@@ -58,8 +56,10 @@ bool SubModel::choose_hosted(OwnerLink& link) {
   find_touching(link, found_);
   std::erase_if(link.bonds,
                 [&](const CrossBond& b) { return std::binary_search(broken_.begin(), broken_.end(), b.bond); });
-  for (const CrossBond& b : link.bonds) found_.push_back(b.own);
-  for (const CrossBond& b : link.bonds) link.meeting.push_back(b.own);
+  for (const CrossBond& b : link.bonds) {
+    found_.push_back(b.own);
+    link.meeting.push_back(b.own);
+  }
   std::sort(link.meeting.begin(), link.meeting.end());
   std::sort(found_.begin(), found_.end());
   found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
@@ -73,15 +73,10 @@ bool SubModel::choose_hosted(OwnerLink& link) {
 void SubModel::find_touching(OwnerLink& link, std::vector<std::uint32_t>& out) {
   out.clear();
   link.meeting.clear();
+  if (link.border.empty()) return;
   Bounds box;
-  double largest = 0;
-  points_.clear();
-  for (const BorderElement& b : link.border) {
-    points_.push_back(point(b.position));
-    box.add(b.position, b.radius);
-    largest = std::max(largest, b.radius);
-  }
-  if (points_.empty()) return;
+  for (const BorderElement& b : link.border) box.add(b.position, b.radius);
+  const double largest = list_points(link.border);
   grid_.build(points_, largest + largest_radius_ + drop_factor * context_.skin);
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const BodyMotion& own = motions_[i];
@@ -100,6 +95,17 @@ void SubModel::find_touching(OwnerLink& link, std::vector<std::uint32_t>& out) {
     if (touches) out.push_back(members_[i]);
     if (meets) link.meeting.push_back(members_[i]);
   }
+}
+
+/// Their places become points_. Returns the largest radius [m].
+double SubModel::list_points(std::span<const BorderElement> bodies) {
+  points_.clear();
+  double largest = 0;
+  for (const BorderElement& b : bodies) {
+    points_.push_back(point(b.position));
+    largest = std::max(largest, b.radius);
+  }
+  return largest;
 }
 
 /// Brings the list of shared elements in line with the hosted lists of all links.

@@ -55,9 +55,8 @@ void SubModel::note_meetings_here() {
 }
 
 bool SubModel::meets_here(std::uint32_t member) const {
-  const Vec3& x = motions_[member].position;
   bool meets = false;
-  grid_.around({x.x(), x.y(), x.z()}, [&](std::uint32_t k) {
+  grid_.around(point(motions_[member].position), [&](std::uint32_t k) {
     meets = meets || (k != member && about_to_meet(motions_[member], radius_[member], here_[k]));
   });
   return meets;
@@ -71,12 +70,7 @@ void SubModel::list_bodies_here() {
   for (const HostLink& link : host_links_)
     for (const Ghost& g : link.ghosts)
       here_.push_back({world_->position(g.slot), g.start.twist.linear, context_.radius(g.element)});
-  points_.clear();
-  double largest = 0;
-  for (const BorderElement& b : here_) {
-    points_.push_back({b.position.x(), b.position.y(), b.position.z()});
-    largest = std::max(largest, b.radius);
-  }
+  const double largest = list_points(here_);
   grid_.build(points_, 2 * largest + context_.skin);
 }
 

@@ -174,6 +174,8 @@ class SubModel final : public runtime::SubModel {
   void unshare(const SharedElement& shared);
   void send_ghosts(const OwnerLink& link, runtime::Port& port);
 
+  static std::array<double, 3> point(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+  double list_points(std::span<const BorderElement> bodies);
   bool about_to_meet(const BodyMotion& own, double radius, const BorderElement& other) const;
   void note_meetings();
   void note_meetings_at(const OwnerLink& link);

@@ -67,9 +67,10 @@ void WallContacts::add(const Bodies& bodies, WallRow row, const native::Nearest&
   const PairConstants& law = rule_.of(bodies.material[row.ball], wall.material());
   row.inverse_mass = bodies.moving[row.ball].inverse_mass();
   row.mass = 1 / row.inverse_mass;
-  if (!rule_.prepare(row, gap, closing, law, bodies.carries[row.ball] != 0)) return;
+  const bool carries = bodies.carries[row.ball] != 0;
+  if (!rule_.prepare(row, gap, closing, law, carries)) return;
   const float limit = take_up(row);
-  if (bodies.carries[row.ball] != 0) row.rebound = limit > rule_.numbers().threshold ? std::min(row.rebound, limit) : 0;
+  if (carries) row.rebound = limit > rule_.numbers().threshold ? std::min(row.rebound, limit) : 0;
   rows_.push_back(row);
 }
 
