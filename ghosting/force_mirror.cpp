@@ -58,7 +58,6 @@ void SubModel::collect_motions(const SharedElement& shared) {
 }
 
 void SubModel::combine(SharedElement& shared) {
-  shared.end = world_->state(slots_[shared.member]);
   copy_motions_.clear();
   if (!context_.followers()) collect_motions(shared);
   const CouplingContext context{id_, context_.scene->gravity * context_.world.substep,

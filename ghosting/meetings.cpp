@@ -62,14 +62,15 @@ bool SubModel::meets_here(std::uint32_t member) const {
   return meets;
 }
 
-/// The members, then the ghosts.
+/// The members, then the ghosts, where they are if nothing has pushed them: to ask the engine would cost more.
 void SubModel::list_bodies_here() {
   here_.clear();
   for (std::size_t i = 0; i < members_.size(); ++i)
     here_.push_back({motions_[i].position, motions_[i].twist.linear, radius_[i]});
   for (const HostLink& link : host_links_)
     for (const Ghost& g : link.ghosts)
-      here_.push_back({world_->position(g.slot), g.start.twist.linear, context_.radius(g.element)});
+      here_.push_back({g.start.pose.position + context_.world.substep * g.start.twist.linear, g.start.twist.linear,
+                       context_.radius(g.element)});
   const double largest = list_points(here_);
   grid_.build(points_, 2 * largest + context_.skin);
 }

@@ -29,6 +29,7 @@ void SubModel::advance(const runtime::Round& round) {
   newly_broken_.assign(world_->broken_bonds().begin(), world_->broken_bonds().end());
   note_broken(newly_broken_);
   read_motions();
+  for (SharedElement& shared : shared_) shared.end = world_->state(slots_[shared.member]);  // while it is in the cache
   check_motions(round);
 }
 
