@@ -66,34 +66,30 @@ void expect_alike(const Rest& cut, const Rest& whole, double energy = 2) {
   EXPECT_LT(cut.overlap, 2 * whole.overlap);
 }
 
-double median(std::vector<double> of) {
-  std::nth_element(of.begin(), of.begin() + of.size() / 2, of.end());
-  return of[of.size() / 2];
-}
-
 /// Into which of many packings a pile settles, and how many of its spheres stay loose, is chance: most of the energy is
-/// theirs, and differs between seeds by a thousand times. So medians over seeds of the starting positions are compared,
-/// and those of nine seeds still differ by a factor of two.
-Rest median_over_seeds(const std::string& scene, int parts, double seconds) {
-  std::vector<double> energy, overlap, height;
-  for (const double seed : {1, 2, 3, 4, 5, 6, 7, 8, 9}) {
+/// theirs, and differs between seeds by a thousand times. So geometric means over seeds of the starting positions are
+/// compared.
+Rest mean_over_seeds(const std::string& scene, int parts, double seconds) {
+  constexpr int seeds = 9;
+  double energy = 0, overlap = 0, height = 0;
+  for (int seed = 1; seed <= seeds; ++seed) {
     const Rest r = settle(scene, parts, seconds, {set("seed", seed)});
     expect_sound(r, 1e-3);
-    energy.push_back(r.energy);
-    overlap.push_back(r.overlap);
-    height.push_back(r.height);
+    energy += std::log(r.energy) / seeds;
+    overlap += std::log(r.overlap) / seeds;
+    height += r.height / seeds;
   }
-  Rest middle;
-  middle.energy = median(energy);
-  middle.overlap = median(overlap);
-  middle.height = median(height);
-  return middle;
+  Rest mean;
+  mean.energy = std::exp(energy);
+  mean.overlap = std::exp(overlap);
+  mean.height = height;
+  return mean;
 }
 
-/// Measured: medians of 2.5e-5 m g d cut and 4.6e-6 whole.
+/// Measured over 54 seeds: 1.6 times the energy of the whole. The ratio of means over nine is uncertain by 1.8 times.
 TEST(AtRest, BoxSettlesAlikeWholeAndCut) {
-  const Rest whole = median_over_seeds("box_settle", 1, 20), cut = median_over_seeds("box_settle", 4, 20);
-  expect_alike(cut, whole, 10);
+  const Rest whole = mean_over_seeds("box_settle", 1, 20), cut = mean_over_seeds("box_settle", 4, 20);
+  expect_alike(cut, whole, 3);
   EXPECT_NEAR(cut.height, whole.height, 0.02 * whole.height);
 }
 
