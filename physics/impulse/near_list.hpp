@@ -15,6 +15,8 @@ namespace moraine::impulse {
 /// Buffers are reused.
 class NearList {
  public:
+  using Pair = std::array<std::uint32_t, 2>;
+
   /// Lists pairs with a gap below `skin`; of two passive bodies none. `position`: radius in the last lane.
   void build(std::span<const Vec> position, std::span<const std::uint8_t> passive, float skin);
 
@@ -31,10 +33,9 @@ class NearList {
   std::size_t size() const { return size_; }
   const std::uint32_t* lower() const { return lower_.data(); }
   const std::uint32_t* higher() const { return higher_.data(); }
+  Pair pair(std::size_t k) const { return {lower_[k], higher_[k]}; }
 
  private:
-  using Pair = std::array<std::uint32_t, 2>;
-
   struct SizeClass {
     std::vector<std::uint32_t> members;  ///< ascending, when built
     std::vector<std::uint32_t> start, cursor, cell, body;
@@ -53,7 +54,6 @@ class NearList {
   void find_near(std::span<const Vec> position, std::span<const std::uint8_t> passive,
                  std::span<const Place> newcomers);
   void make_room(std::size_t pairs);
-  Pair pair(std::size_t k) const { return {lower_[k], higher_[k]}; }
   void put(std::size_t k, const Pair& pair) { lower_[k] = pair[0], higher_[k] = pair[1]; }
 
   std::vector<SizeClass> classes_;  ///< by rising size

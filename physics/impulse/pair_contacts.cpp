@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace moraine::impulse {
 namespace {
 
 static_assert(sizeof(PairRow) == 48);
 
-std::uint64_t key(Place a, Place b) { return std::uint64_t{a} << 32 | b; }
+constexpr std::array<float, 4> nothing{};
 
 void put(const PairRow& row, std::uint32_t pair, PairBatch& to, std::size_t lane) {
   to.a[lane] = row.a;
@@ -43,32 +44,61 @@ void PairContacts::list(const Bodies& bodies, float skin) {
 /// What pairs carry, without the list.
 void PairContacts::put_away() {
   away_.clear();
-  for (const std::uint32_t k : meeting_.all())
-    if (carried_[k] != std::array<float, 4>{}) away_.push_back({pairs_.lower()[k], pairs_.higher()[k], carried_[k]});
+  away_.reserve(meeting_.count);
+  for (const std::uint32_t k : meeting_.all()) {
+    if (carried_[k] == nothing) continue;
+    carried_[away_.size()] = carried_[k];
+    away_.push_back({pairs_.lower()[k], pairs_.higher()[k]});
+  }
 }
 
 /// Back into a new list, which holds at least the pairs that are in contact.
 void PairContacts::take_out() {
-  carried_.assign(pairs_.size(), {});
   meeting_.count = 0;
   std::uint32_t k = 0;
-  for (const Carried& c : away_) {
-    while (k < pairs_.size() && key(pairs_.lower()[k], pairs_.higher()[k]) < key(c.a, c.b)) ++k;
+  for (std::size_t j = 0; j < away_.size(); ++j) {
+    while (k < pairs_.size() && pairs_.pair(k) < away_[j]) ++k;
     if (k == pairs_.size()) break;
-    if (key(pairs_.lower()[k], pairs_.higher()[k]) != key(c.a, c.b)) continue;
-    carried_[k] = c.impulse;
+    if (pairs_.pair(k) != away_[j]) continue;
+    carried_[meeting_.count] = carried_[j];
     meeting_.add(k);
   }
+  carried_.resize(pairs_.size());
+  spread_carried();
   away_.clear();
+}
+
+/// From the front of the list to the places of those in contact; backwards, as none lies before its place in the front.
+void PairContacts::spread_carried() {
+  std::size_t end = carried_.size();
+  for (std::size_t j = meeting_.count; j-- > 0;) {
+    const std::size_t k = meeting_.at[j];
+    std::fill(carried_.begin() + k + 1, carried_.begin() + end, nothing);
+    carried_[k] = carried_[j];
+    end = k;
+  }
+  std::fill(carried_.begin(), carried_.begin() + end, nothing);
 }
 
 void PairContacts::follow(std::span<const Place> moved) {
   const auto renew = [&](Place& p) { p = p == nowhere ? nowhere : moved[p]; };
-  for (Carried& c : away_) renew(c.a), renew(c.b);
-  std::erase_if(away_, [](const Carried& c) { return c.a == nowhere || c.b == nowhere; });
   for (std::size_t k = 0; k < batch_count_; ++k)
     for (std::size_t lane = 0; lane < batch_lanes; ++lane) renew(batches_[k].a[lane]), renew(batches_[k].b[lane]);
-  if (listed_) follow_list(moved);
+  if (listed_)
+    follow_list(moved);
+  else
+    follow_away(moved);
+}
+
+void PairContacts::follow_away(std::span<const Place> moved) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < away_.size(); ++k) {
+    const NearList::Pair now{moved[away_[k][0]], moved[away_[k][1]]};
+    if (now[0] == nowhere || now[1] == nowhere) continue;
+    carried_[kept] = carried_[k];
+    away_[kept++] = now;
+  }
+  away_.resize(kept);
 }
 
 /// What was in contact stays in contact, at a new place in the list.
@@ -89,7 +119,7 @@ void PairContacts::insert(const Bodies& bodies, std::span<const Place> ghosts) {
   pairs_.insert(bodies.position, bodies.ghost, ghosts, [&](std::size_t old, std::size_t now) {
     carried_.resize(std::max(carried_.size(), now + 1));
     carried_[now] = carried_[old];
-    carried_[old] = {};
+    carried_[old] = nothing;
     while (next > 0 && meeting_.at[next - 1] > old) --next;
     if (next > 0 && meeting_.at[next - 1] == old) meeting_.at[--next] = static_cast<std::uint32_t>(now);
   });
@@ -129,7 +159,7 @@ PairRow PairContacts::row(std::uint32_t at) const {
   row.a = from.a[lane];
   row.b = from.b[lane];
   row.push = from.push[lane];
-  row.rebound = from.rebound[lane];
+  row.rebound = std::abs(from.rebound[lane]);
   for (int axis = 0; axis < 3; ++axis) {
     row.normal[axis] = from.normal[axis][lane];
     row.side[axis] = from.side[axis][lane];
@@ -145,9 +175,11 @@ void PairContacts::restore(std::span<const PairRow> rows) {
     const std::uint32_t from = k < rows.size() ? k : k / batch_lanes * batch_lanes;
     put(rows[from], from, batches_[k / batch_lanes], k % batch_lanes);
   }
+  carried_.clear();
   for (const PairRow& r : rows) {
-    const std::array<float, 4> carried = carried_by(r);
-    if (carried != std::array<float, 4>{}) away_.push_back({r.a, r.b, carried});
+    if (carried_by(r) == nothing) continue;
+    carried_.push_back(carried_by(r));
+    away_.push_back({r.a, r.b});
   }
   listed_ = false;
   meeting_.count = rows.size();
@@ -230,12 +262,11 @@ void PairContacts::start_group(Bodies& bodies) {
 }
 
 PairTask PairContacts::task(Bodies& bodies) {
-  return {arrays(bodies), batches_.data(),     batch_count_, rule_.numbers().impulse_scale,
-          features(),     numbers_of(carried_)};
+  return {arrays(bodies), batches_.data(), batch_count_, rule_.numbers(), laws(), features(), numbers_of(carried_)};
 }
 
 void PairContacts::relax(Bodies& bodies) {
-  for (const std::uint32_t k : met_.all()) carried_[k] = {};
+  for (const std::uint32_t k : met_.all()) carried_[k] = nothing;
   kernels_.relax(task(bodies));
 }
 

@@ -63,10 +63,6 @@ class PairContacts {
     }
     std::span<const std::uint32_t> all() const { return {at.data(), count}; }
   };
-  struct Carried {
-    Place a = 0, b = 0;
-    std::array<float, 4> impulse{};
-  };
   /// Colours of a body's contacts in a group, as bits.
   struct Taken {
     std::uint32_t group = 0, colours = 0;
@@ -87,19 +83,21 @@ class PairContacts {
   void choose_colours(std::span<const std::uint32_t> pairs, std::uint32_t group);
   void start_group(Bodies& bodies);
   void follow_list(std::span<const Place> moved);
+  void follow_away(std::span<const Place> moved);
   void put_away();
   void take_out();
+  void spread_carried();
 
   const StepRule& rule_;
   NearList pairs_;
   bool listed_ = false;
   std::vector<std::array<float, 4>> carried_;  ///< by place in the list, as in PairTable; zeros without contact
-  std::vector<Carried> away_;                  ///< while there is no list: those that are not zero, ascending (a, b)
-  std::vector<std::uint32_t> close_;           ///< pairs within reach
-  Places meeting_, met_;                       ///< pairs in contact in this step and the one before, ascending
-  std::vector<Taken> taken_;                   ///< by body
-  std::array<Places, colours> coloured_;       ///< pairs of each colour
-  std::vector<PairBatch> batches_;             ///< in the order in which they are solved; the first count are in use
+  std::vector<NearList::Pair> away_;      ///< while there is no list: pairs that carry the first of these, ascending
+  std::vector<std::uint32_t> close_;      ///< pairs within reach
+  Places meeting_, met_;                  ///< pairs in contact in this step and the one before, ascending
+  std::vector<Taken> taken_;              ///< by body
+  std::array<Places, colours> coloured_;  ///< pairs of each colour
+  std::vector<PairBatch> batches_;        ///< in the order in which they are solved; the first count are in use
   std::size_t batch_count_ = 0;
   const PairKernels& kernels_ = pair_kernels();
 };

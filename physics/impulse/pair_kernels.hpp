@@ -13,7 +13,7 @@ namespace moraine::impulse {
 inline constexpr std::size_t batch_lanes = 8;
 
 /// Up to eight pair contacts that share no body. Spare lanes repeat the first one: they compute and write the same.
-/// Impulses act on a, the opposite ones on b.
+/// Impulses act on a, the opposite ones on b. What can be worked out again is not kept: sweeps wait for memory.
 struct alignas(32) PairBatch {
   using Lanes = float[batch_lanes];
 
@@ -23,10 +23,7 @@ struct alignas(32) PairBatch {
   Lanes side[3];                    ///< tangential impulse of the step so far
   Lanes push;                       ///< normal impulse of the step so far, 0 or more
   Lanes approach;                   ///< as in ContactRow; above 0 if and only if there is a gap
-  Lanes mass;                       ///< reduced
-  Lanes friction;
-  Lanes firmness;  ///< the mass if the contact is hard, else less
-  Lanes rebound;   ///< speed after an impact
+  Lanes rebound;                    ///< speed after an impact; negative if the contact is soft all the same
 };
 
 /// The bodies of a world, by place.
@@ -81,7 +78,8 @@ struct PairTask {
   BodyArrays bodies;
   PairBatch* batches = nullptr;
   std::size_t count = 0;
-  float impulse_scale = 0;  ///< StepNumbers
+  StepNumbers numbers;
+  PairLaws laws;
   PairFeatures features;
   float* carried = nullptr;  ///< PairTable
 };

@@ -56,19 +56,13 @@ MORAINE_INLINE Lie lie(const BodyArrays& bodies, const std::uint32_t* of_a, cons
 }
 
 /// By the materials of the bodies.
-struct Laws {
-  F8 friction, restitution;
-};
-MORAINE_INLINE Laws laws(const PairLaws& table, const BodyArrays& bodies, const std::uint32_t* a,
-                         const std::uint32_t* b) {
-  if (table.materials == 1) return {all(table.of[0].friction), all(table.of[0].restitution)};
-  PairBatch::Lanes friction, restitution;
-  for (std::size_t k = 0; k < batch_lanes; ++k) {
-    const PairConstants& of = table.of[bodies.material[a[k]] * table.materials + bodies.material[b[k]]];
-    friction[k] = of.friction;
-    restitution[k] = of.restitution;
-  }
-  return {load(friction), load(restitution)};
+MORAINE_INLINE F8 law(float PairConstants::*which, const PairLaws& table, const BodyArrays& bodies,
+                      const std::uint32_t* a, const std::uint32_t* b) {
+  if (table.materials == 1) return all(table.of[0].*which);
+  PairBatch::Lanes out;
+  for (std::size_t k = 0; k < batch_lanes; ++k)
+    out[k] = table.of[bodies.material[a[k]] * table.materials + bodies.material[b[k]]].*which;
+  return load(out);
 }
 
 /// Speed after the impact, 0 if it is too slow to rebound.
@@ -96,7 +90,7 @@ std::size_t find_meeting(const PairFindTask& task) {
     const F8 closing = dot(l.normal, gather(task.bodies.moving, i.b, 8).xyz - gather(task.bodies.moving, i.a, 8).xyz);
     F8 range = smaller(all(n.slack) + all(n.h) * larger(closing, all(0)), all(n.reach));
     if constexpr (Restitution) {
-      const F8 rebound = rebound_of(closing, laws(task.laws, task.bodies, i.a, i.b).restitution, n);
+      const F8 rebound = rebound_of(closing, law(&PairConstants::restitution, task.laws, task.bodies, i.a, i.b), n);
       range = choose((rebound > all(0)) & alone(task.bodies, i.a, i.b), all(0), range);
     }
     end = append(end, i.pair, bits(l.gap < range) & in_use(at, count));
@@ -138,30 +132,25 @@ MORAINE_INLINE void apply(const PairBatch& batch, Bodies8 m, const Wide& impulse
 /// Bodies that carry start a step with the velocity of that load: in a contact that lasts, that is
 /// no impact, and a rebound from it would raise energy. After an impact, rebounds of the steps that follow get smaller.
 template <bool Restitution>
-MORAINE_INLINE void prepare(PairBatch& batch, const PairStartTask& task, const F8& mass, const Lie& l,
-                            const F8& carried) {
+MORAINE_INLINE void prepare(PairBatch& batch, const PairStartTask& task, const Lie& l, const F8& carried) {
   const StepNumbers& n = task.numbers;
-  const Laws law = laws(task.laws, task.bodies, batch.a, batch.b);
   F8 rebound = all(0);
-  I8 hard = l.gap > all(0);
   F8 approach = all(n.closing) * larger(l.gap, all(0)) -
                 smaller(all(n.opening) * larger(-l.gap, all(0)), all(StepNumbers::push_limit));
   if constexpr (Restitution) {
     const Wide before_a = gather(task.bodies.before, batch.a, 4).xyz,
                before_b = gather(task.bodies.before, batch.b, 4).xyz;
     const I8 none_carries = alone(task.bodies, batch.a, batch.b);
-    const F8 fresh = rebound_of(dot(l.normal, before_b - before_a), law.restitution, n);
+    const F8 restitution = law(&PairConstants::restitution, task.laws, task.bodies, batch.a, batch.b);
+    const F8 fresh = rebound_of(dot(l.normal, before_b - before_a), restitution, n);
     const F8 limit = all(-StepNumbers::again) * carried;
     const F8 again = choose(limit > all(n.threshold), smaller(fresh, limit), all(0));
     rebound = choose(none_carries | (carried == all(0)), fresh, again);
     const I8 bounces = (rebound > all(0)) & none_carries;
-    hard |= bounces;
     approach = choose(bounces, -rebound, approach);
+    rebound = choose(bounces, rebound, -rebound);
   }
   store(approach, batch.approach);
-  store(mass, batch.mass);
-  store(law.friction, batch.friction);
-  store(choose(hard, mass, all(n.mass_scale) * mass), batch.firmness);
   store(rebound, batch.rebound);
 }
 
@@ -177,7 +166,7 @@ void start_all(const PairStartTask& task) {
     const Lie l = lie(task.bodies, batch.a, batch.b);
     const Bodies8 m = read(batch, task.bodies.moving);
     const Four carried = gather(task.table.carried, batch.pair, 4);
-    prepare<Restitution>(batch, task, all(1) / (m.turning_a.w + m.turning_b.w), l, carried.w);
+    prepare<Restitution>(batch, task, l, carried.w);
     Wide side{};
     if constexpr (Friction) side = carried.xyz - dot(carried.xyz, l.normal) * l.normal;
     const F8 push = larger(carried.w, all(0));
@@ -188,36 +177,44 @@ void start_all(const PairStartTask& task) {
   }
 }
 
+/// How a contact yields.
+struct Soft {
+  F8 mass_scale, yielding;
+};
 template <bool Friction>
-MORAINE_INLINE void correct(PairBatch& batch, float* moving, const F8& firmness, const F8& yielding,
-                            const F8& approach) {
-  const Bodies8 m = read(batch, moving);
+MORAINE_INLINE void correct(PairBatch& batch, const PairTask& task, const Soft& soft, const F8& approach) {
+  const Bodies8 m = read(batch, task.bodies.moving);
+  const F8 mass = all(1) / (m.turning_a.w + m.turning_b.w);
   const Wide normal = load(batch.normal);
   Wide slip = m.velocity_a.xyz - m.velocity_b.xyz;
   if constexpr (Friction) slip = slip - cross(m.turning_a.xyz + m.turning_b.xyz, normal);
   const F8 parting = dot(normal, slip), before = load(batch.push);
-  const F8 push = larger(before - firmness * (parting + approach) - yielding * before, all(0));
+  const F8 push = larger(before - soft.mass_scale * mass * (parting + approach) - soft.yielding * before, all(0));
   store(push, batch.push);
   Wide impulse = (push - before) * normal, change{};
   if constexpr (Friction) {
+    const F8 friction = law(&PairConstants::friction, task.laws, task.bodies, batch.a, batch.b);
     const Wide old = load(batch.side), across = slip - parting * normal;
-    const Wide wanted = old - (all(2.0F / 7) * load(batch.mass)) * across;
-    const F8 limit = load(batch.friction) * push, size2 = larger(dot(wanted, wanted), all(1e-30F));
+    const Wide wanted = old - (all(2.0F / 7) * mass) * across;
+    const F8 limit = friction * push, size2 = larger(dot(wanted, wanted), all(1e-30F));
     const Wide side = (limit / root(larger(size2, limit * limit))) * wanted;
     store(side, batch.side);
     change = side - old;
     impulse = impulse + change;
   }
-  apply<Friction>(batch, m, impulse, change, normal, moving);
+  apply<Friction>(batch, m, impulse, change, normal, task.bodies.moving);
 }
 
 template <bool Friction>
 void sweep_all(const PairTask& task) {
+  const F8 zero = all(0);
   for (std::size_t k = 0; k < task.count; ++k) {
     PairBatch& batch = task.batches[k];
-    const F8 firmness = load(batch.firmness);
-    const F8 yielding = choose(firmness < load(batch.mass), all(task.impulse_scale), all(0));
-    correct<Friction>(batch, task.bodies.moving, firmness, yielding, load(batch.approach));
+    const F8 approach = load(batch.approach);
+    const I8 hard = (approach > zero) | (load(batch.rebound) > zero);
+    const Soft soft{choose(hard, all(1), all(task.numbers.mass_scale)),
+                    choose(hard, zero, all(task.numbers.impulse_scale))};
+    correct<Friction>(batch, task, soft, approach);
   }
 }
 
@@ -233,12 +230,19 @@ MORAINE_INLINE void turn(PairBatch& batch, const I8& met, const BodyArrays& bodi
         batch.normal);
 }
 
+/// Whether the contact is soft or not.
+MORAINE_INLINE F8 speed_after(const PairBatch& batch) {
+  const F8 rebound = load(batch.rebound);
+  return larger(rebound, -rebound);
+}
+
 MORAINE_INLINE void carry(const PairBatch& batch, float* carried) {
-  const I8 goes_on = load(batch.rebound) <= all(0);
+  const F8 rebound = speed_after(batch);
+  const I8 goes_on = rebound <= all(0);
   const Wide side = load(batch.side);
   const F8 zero = all(0), push = load(batch.push);
   scatter({{choose(goes_on, side.x, zero), choose(goes_on, side.y, zero), choose(goes_on, side.z, zero)},
-           choose(goes_on, push, choose(push > zero, -load(batch.rebound), zero))},
+           choose(goes_on, push, choose(push > zero, -rebound, zero))},
           carried, batch.pair, 4);
 }
 
@@ -248,9 +252,9 @@ void relax_all(const PairTask& task) {
   for (std::size_t k = 0; k < task.count; ++k) {
     PairBatch& batch = task.batches[k];
     const I8 carries = load(batch.push) > zero, apart = load(batch.approach) > zero;
-    const F8 approach = choose(carries, -load(batch.rebound), choose(apart, all(1e10F), zero));
+    const F8 approach = choose(carries, -speed_after(batch), choose(apart, all(1e10F), zero));
     turn(batch, carries & apart, task.bodies);
-    correct<Friction>(batch, task.bodies.moving, load(batch.mass), zero, approach);
+    correct<Friction>(batch, task, {all(1), zero}, approach);
     carry(batch, task.carried);
   }
 }

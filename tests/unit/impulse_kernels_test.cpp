@@ -64,8 +64,9 @@ struct Sample {
   }
   void solve(const PairKernels& kernels) {
     kernels.start({arrays(), table(), numbers, {law.data(), 2}, features, pairs.data(), pairs.size(), batches.data()});
-    const PairTask task{arrays(), batches.data(), (pairs.size() + batch_lanes - 1) / batch_lanes, numbers.impulse_scale,
-                        features, carried.data()};
+    const PairTask task{arrays(),      batches.data(),  (pairs.size() + batch_lanes - 1) / batch_lanes,
+                        numbers,       {law.data(), 2}, features,
+                        carried.data()};
     for (int sweep = 0; sweep < 3; ++sweep) kernels.sweep(task);
     kernels.relax(task);
   }
