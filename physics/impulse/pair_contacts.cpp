@@ -48,7 +48,7 @@ void PairContacts::put_away() {
   for (const std::uint32_t k : meeting_.all()) {
     if (carried_[k] == nothing) continue;
     carried_[away_.size()] = carried_[k];
-    away_.push_back({pairs_.lower()[k], pairs_.higher()[k]});
+    away_.push_back(pairs_.pair(k));
   }
 }
 
@@ -177,8 +177,9 @@ void PairContacts::restore(std::span<const PairRow> rows) {
   }
   carried_.clear();
   for (const PairRow& r : rows) {
-    if (carried_by(r) == nothing) continue;
-    carried_.push_back(carried_by(r));
+    const std::array<float, 4> carried = carried_by(r);
+    if (carried == nothing) continue;
+    carried_.push_back(carried);
     away_.push_back({r.a, r.b});
   }
   listed_ = false;

@@ -230,7 +230,7 @@ MORAINE_INLINE void turn(PairBatch& batch, const I8& met, const BodyArrays& bodi
         batch.normal);
 }
 
-/// Whether the contact is soft or not.
+/// Speed after the impact, of soft contacts too.
 MORAINE_INLINE F8 speed_after(const PairBatch& batch) {
   const F8 rebound = load(batch.rebound);
   return larger(rebound, -rebound);
