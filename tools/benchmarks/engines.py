@@ -6,6 +6,8 @@ import statistics
 import subprocess
 import sys
 
+from peers.codes import CODES
+
 from .runs import ROOT, run
 
 # What each engine needs to come within a few per cent of the reference, with as few steps as that allows.
@@ -29,17 +31,16 @@ def listed_engines(moraine):
     return rows
 
 
-def lammps(arguments, count):
-    """What tools/peers/lammps measured, one run per seed; nothing if it or `lmp` is missing."""
-    tool = os.path.join(ROOT, "tools/peers/lammps")
+def peer(arguments, code, count):
+    """What tools/peers/run measured, one run per seed; nothing if the program is missing."""
+    tool = os.path.join(ROOT, "tools/peers/run")
     runs = []
     for seed in range(1, arguments.repeats + 1):
-        if not os.path.exists(tool):
-            break
-        print(f"  LAMMPS, seed {seed} ...", file=sys.stderr)
-        done = subprocess.run([tool, "--moraine", arguments.moraine, "--count", str(count), "--seed", str(seed)],
+        print(f"  {code}, seed {seed} of {arguments.repeats} ...", file=sys.stderr)
+        done = subprocess.run([tool, code, "--moraine", arguments.moraine, "--count", str(count), "--seed", str(seed)],
                               capture_output=True, text=True)
         if done.returncode == 3:
+            print(f"  {code} is not beside them: {done.stderr.strip()}", file=sys.stderr)
             break
         done.check_returncode()
         runs.append(json.loads(done.stdout))
@@ -83,10 +84,8 @@ def engines(arguments):
         little = run(arguments.moraine, "dam", ["--engine", name, "--set", "count=8", "--steps", "10"] + options)
         grown = max(r["peak_rss_bytes"] for r in runs[name]) - little["peak_rss_bytes"]
         rows.append(engine_row(name, runs[name], grown / count))
-    peers = lammps(arguments, count)
-    if peers:
-        rows.append(engine_row("LAMMPS", peers, None))
-    else:
-        print("LAMMPS is not beside them: tools/peers/lammps or lmp is missing", file=sys.stderr)
+    for code in CODES:
+        if beside := peer(arguments, code, count):
+            rows.append(engine_row(code, beside, None))
     print_engines(rows, count, arguments.repeats)
     return rows
