@@ -44,6 +44,7 @@ struct ReloadCase {
   std::string name, scene;
   std::vector<Override> settings;
 };
+void PrintTo(const ReloadCase& c, std::ostream* out) { *out << c.name; }
 
 class Reload : public testing::TestWithParam<ReloadCase> {};
 

@@ -61,6 +61,7 @@ struct Target {
   const char* text;
   double thickness;  ///< way in a substep at which a ball of 1 m jumps over it [m]
 };
+void PrintTo(const Target& t, std::ostream* out) { *out << t.name; }
 
 const Target targets[] = {
     {"plate", "boundaries: [{plate: {size: [0.5, 9, 9], at: [5.25, 0, 0]}}]\n", 1.5},

@@ -20,6 +20,7 @@ struct Wrong {
   std::string text;
   std::string start;  ///< of the error text
 };
+void PrintTo(const Wrong& w, std::ostream* out) { *out << w.name; }
 
 class SceneError : public testing::TestWithParam<Wrong> {};
 
