@@ -13,15 +13,22 @@ given = dict(text.split("=", 1) for text in sys.argv[1:])
 stiffness, damping, friction = (float(given[name]) for name in ("stiffness", "damping", "friction"))
 
 
-def material(normal_damping):
+def read_layout(path):
+    """Rows of id, type, diameter, density, x, y, z."""
+    text = open(path, encoding="utf-8").read().split("Atoms\n\n")[1]
+    return [[float(v) for v in row.split()] for row in text.splitlines()]
+
+
+def material(normal_damping, density):
     """Two of these in series have half of each; a wall without damping leaves the sphere's."""
     return O.materials.append(ViscElMat(kn=2 * stiffness, ks=2 * stiffness * 2 / 7, cn=normal_damping, cs=normal_damping / 2,
-                                        frictionAngle=math.atan(friction), density=6 / math.pi))
+                                        frictionAngle=math.atan(friction), density=density))
 
 
-sphere, wall = material(damping), material(0)
-rows = open(given["layout"], encoding="utf-8").read().split("Atoms\n\n")[1].splitlines()
-for _, _, diameter, _, x, y, z in (map(float, row.split()) for row in rows):
+rows = read_layout(given["layout"])
+density = rows[0][3]
+sphere, wall = material(damping, density), material(0, density)
+for _, _, diameter, _, x, y, z in rows:
     O.bodies.append(utils.sphere((x, y, z), diameter / 2, material=sphere))
 for place, axis in ((0, 0), (given["length"], 0), (0, 1), (given["width"], 1), (0, 2)):
     O.bodies.append(utils.wall(float(place), axis, material=wall))
