@@ -22,7 +22,7 @@ double height_lost(const Outcome& o) {
   return sum / (0.5 * static_cast<double>(o.states.size()) * static_cast<double>(o.states.size()));
 }
 
-class Stack : public testing::TestWithParam<std::tuple<const char*, int>> {};
+class Stack : public testing::TestWithParam<std::tuple<std::string, int>> {};
 
 /// Until it stands still. Soft spheres are a spring that is damped only where they touch: the slowest swing of a column
 /// has 1/n of the frequency of a contact and 1/n of its damping ratio, so 100 of them still swing after 10 s.
@@ -57,7 +57,7 @@ std::string pair(const std::string& below, const std::string& above) {
 /// Steps get as short as the light one needs, so the span does too.
 double span(const std::string& engine, double ratio) { return engine == "soft_sphere" && ratio > 1e3 ? 0.05 : 2; }
 
-class MassRatio : public testing::TestWithParam<std::tuple<const char*, double>> {};
+class MassRatio : public testing::TestWithParam<std::tuple<std::string, double>> {};
 
 /// Overlaps stay below 5 % up to a ratio of 1000; beyond, bodies sink or it is said that they do. The sweeps of impulse
 /// push the light one into the floor: from 1e4 on its centre stays 0.06 radii behind it.
@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(All, MassRatio,
                          testing::Combine(testing::ValuesIn(all_engines), testing::Values(10, 1e2, 1e3, 1e4, 1e6)),
                          ByEngine{});
 
-class DeepOverlap : public testing::TestWithParam<std::tuple<const char*, double>> {};
+class DeepOverlap : public testing::TestWithParam<std::tuple<std::string, double>> {};
 
 /// Two spheres that overlap by a share of their diameter at the start, on no floor and without gravity. The overlap is
 /// reported, and they part slower than a few sqrt(g d), or the run is stopped.
@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(All, DeepOverlap,
                          testing::Combine(testing::ValuesIn(all_engines), testing::Values(0.1, 0.5, 0.99, 1.0)),
                          ByEngine{});
 
-class StiffBond : public testing::TestWithParam<std::tuple<const char*, double>> {};
+class StiffBond : public testing::TestWithParam<std::tuple<std::string, double>> {};
 
 /// Energy of a bond that swings, at most, in parts of what it is on average: an explicit step keeps
 /// v^2 + (w x)^2 - h w^2 x v, an implicit one loses.

@@ -42,7 +42,7 @@ double resolved(const std::string& engine, double distance) {
   return engine == "soft_sphere" ? std::max(1e-5, 1e-11 * distance) : 1e-5;
 }
 
-class Scale : public testing::TestWithParam<std::tuple<const char*, int>> {};
+class Scale : public testing::TestWithParam<std::tuple<std::string, int>> {};
 
 TEST_P(Scale, OfLengthDoesNotMatter) {
   const auto [engine, power] = GetParam();
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(All, Scale, testing::Combine(testing::ValuesIn(all_engi
 
 /// All at once, as far as doubles reach: 1e7 diameters away.
 TEST(Far, TenMillionDiametersAway) {
-  for (const char* engine : all_engines)
+  for (const std::string& engine : all_engines)
     for (const double s : {1e-6, 1.0, 1e6}) {
       const double far = 2e7 * s;
       const Outcome one = attempt(pile, settings(engine, 1, 0, 0));

@@ -6,7 +6,7 @@
 namespace moraine::test {
 namespace {
 
-class Odd : public testing::TestWithParam<const char*> {};
+class Odd : public testing::TestWithParam<std::string> {};
 
 std::string balls(const std::string& items, const std::string& more) {
   return fmt::format(

@@ -20,7 +20,7 @@ bool all_inside(const Outcome& o) {
   });
 }
 
-class Step : public testing::TestWithParam<std::tuple<const char*, double>> {};
+class Step : public testing::TestWithParam<std::tuple<std::string, double>> {};
 
 /// The step in parts of what the engine takes or resolves well. Beyond that it refuses, warns or stops.
 TEST_P(Step, TooLongIsNeverSilent) {
@@ -70,7 +70,7 @@ const Target targets[] = {
     {"ball", "", 2},
 };
 
-class Bullets : public testing::TestWithParam<std::tuple<const char*, Target, double>> {};
+class Bullets : public testing::TestWithParam<std::tuple<std::string, Target, double>> {};
 
 /// A ball flies at something. It comes back, or it was said that it could pass through.
 TEST_P(Bullets, NeverPassSilently) {

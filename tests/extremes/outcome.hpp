@@ -15,7 +15,7 @@
 
 namespace moraine::test {
 
-inline const char* const all_engines[] = {"bullet", "impulse", "soft_sphere"};
+inline const std::string all_engines[] = {"bullet", "impulse", "soft_sphere"};
 
 /// How a run ended. Whatever happens, no number is lost: what ran has finite states only.
 struct Outcome {

@@ -20,6 +20,6 @@ inline const std::string weightless = "gravity: [0, 0, 0]\n";
 inline const std::string in_two = "run: {sub_models: 2, split: slabs}\n";
 
 /// Engines that solve contacts by impulses: right whatever the step.
-inline const char* const impulse_engines[] = {"bullet", "impulse"};
+inline const std::string impulse_engines[] = {"bullet", "impulse"};
 
 }  // namespace moraine::test

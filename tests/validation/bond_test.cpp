@@ -55,7 +55,7 @@ Oscillation observe(const std::string& bond, double dt, std::vector<Override> se
           ((run.position(1) + run.position(2)) / 2 - Vec3(0.5, 0, 0)).norm()};
 }
 
-class BondedPair : public testing::TestWithParam<std::tuple<int, const char*>> {
+class BondedPair : public testing::TestWithParam<std::tuple<int, std::string>> {
  protected:
   static std::vector<Override> setup() {
     return {set("run.sub_models", std::get<0>(GetParam())), set("run.engine", std::get<1>(GetParam()))};

@@ -78,7 +78,7 @@ TEST_P(Incline, BlockSticksAboveTheThresholdAndSlidesBelow) {
 INSTANTIATE_TEST_SUITE_P(Heading, Incline, testing::Values(0.0, 30.0, 45.0),
                          [](const auto& test) { return fmt::format("{:.0f}deg", test.param); });
 
-class SphereOnIncline : public testing::TestWithParam<std::tuple<double, const char*>> {
+class SphereOnIncline : public testing::TestWithParam<std::tuple<double, std::string>> {
  protected:
   double heading() const { return std::get<0>(GetParam()) * std::numbers::pi / 180; }
   Override engine() const { return set("run.engine", std::get<1>(GetParam())); }
@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Heading, SphereOnIncline,
                            return fmt::format("{:.0f}deg_{}", std::get<0>(test.param), std::get<1>(test.param));
                          });
 
-class SlidingToRolling : public testing::TestWithParam<std::tuple<double, const char*>> {};
+class SlidingToRolling : public testing::TestWithParam<std::tuple<double, std::string>> {};
 
 TEST_P(SlidingToRolling, EndsWithFiveSevenths) {
   const auto& [mu, engine] = GetParam();

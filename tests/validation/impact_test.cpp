@@ -22,7 +22,7 @@ struct HeadOn {
 
 void PrintTo(const HeadOn& c, std::ostream* out) { *out << c.m1 << " kg on " << c.m2 << " kg, e " << c.e; }
 
-class HeadOnImpact : public testing::TestWithParam<std::tuple<HeadOn, int, const char*>> {};
+class HeadOnImpact : public testing::TestWithParam<std::tuple<HeadOn, int, std::string>> {};
 
 /// v1' = v_c - e m2/(m1 + m2) (v1 - v2) and v2' alike, at 20 phases of the time step. Momentum is kept to 1e-6, to
 /// 1.5e-6 where one is a thousand times heavier. In two sub-models one sphere meets a ghost of half the mass: a
@@ -84,7 +84,7 @@ struct Rebound {
 };
 
 /// A sphere of radius 0.1 m comes straight down at 1 m/s and is `gap` away; after the impact it flies on for 0.2 s.
-Rebound rebound(const char* engine, const Target& target, double e, double dt, double gap) {
+Rebound rebound(const std::string& engine, const Target& target, double e, double dt, double gap) {
   const bool pair = target.boundary.empty();
   const std::string other =
       pair ? fmt::format(", {{id: 2, at: [0.03, 0.02, {}], velocity: [0, 0, 1]}}", -0.1 - gap) : "";
@@ -96,7 +96,7 @@ Rebound rebound(const char* engine, const Target& target, double e, double dt, d
   return {run.velocity(1).z(), run.velocity(1).head<2>().norm()};
 }
 
-class Restitution : public testing::TestWithParam<std::tuple<Target, double, double, const char*>> {};
+class Restitution : public testing::TestWithParam<std::tuple<Target, double, double, std::string>> {};
 
 /// v' = -e v, whatever the step and whatever is hit, at 7 phases of the step.
 TEST_P(Restitution, IsReached) {
@@ -122,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(Table, Restitution,
                                               std::get<3>(test.param));
                          });
 
-class ElasticGas : public testing::TestWithParam<const char*> {};
+class ElasticGas : public testing::TestWithParam<std::string> {};
 
 /// Energy after 15 s, thousands of impacts, as a part of that at the start.
 double energy_kept(const std::string& engine, int parts) {
@@ -159,7 +159,7 @@ struct Oblique {
 
 void PrintTo(const Oblique& c, std::ostream* out) { *out << "mu " << c.friction; }
 
-class ObliqueImpact : public testing::TestWithParam<std::tuple<Oblique, int, const char*>> {};
+class ObliqueImpact : public testing::TestWithParam<std::tuple<Oblique, int, std::string>> {};
 
 struct Budget {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero(), angular_far = Vec3::Zero();

@@ -119,7 +119,7 @@ TEST(AtRest, ColumnStandsInPiecesOfOne) {
   EXPECT_LT(run.kinetic_energy() / (20 * run.scene().typical_mass() * 9.81), 1e-4);
 }
 
-class Hydrostatic : public testing::TestWithParam<const char*> {};
+class Hydrostatic : public testing::TestWithParam<std::string> {};
 
 /// Smooth spheres in a smooth box: the floor carries the weight, walls push back alike.
 TEST_P(Hydrostatic, FloorCarriesTheWeight) {
