@@ -41,9 +41,10 @@ void Chains::follow(const TaskRecord& task, double until, std::vector<Segment>& 
     if (from < now) out.push_back({from, now, on, of});
     now = from;
   };
-  for (const TaskRecord* current = &task; now > until;) {
+  const TaskRecord* current = &task;
+  for (std::size_t links = index_.size(); links > 0 && now > until; --links) {
     const TaskRecord* by = awaited(*current);
-    if (by == nullptr || by->start >= current->start) return back_to(until, SpentOn::scheduling, current);
+    if (by == nullptr) break;
     if (by->rank != current->rank) {
       back_to(current->ready, SpentOn::scheduling, current);
       back_to(by->end, SpentOn::message, by);
@@ -52,6 +53,7 @@ void Chains::follow(const TaskRecord& task, double until, std::vector<Segment>& 
     back_to(by->start, SpentOn::task, by);
     current = by;
   }
+  back_to(until, SpentOn::scheduling, current);
 }
 
 const TaskRecord* Chains::awaited(const TaskRecord& task) const {

@@ -16,7 +16,7 @@ class RunClock {
   /// Since rank 0 made its clock. Called by all ranks at once, while none sends. Every rank's offset to rank 0 is
   /// estimated as in Cristian (1989), Probabilistic clock synchronization, from the fastest of several messages there
   /// and back: it is wrong by half of that time at most. Drift is not followed. Cost: 16 messages there and back for
-  /// every rank, one rank after another.
+  /// every rank, one rank after another; up to 0.1 s of them where none is quick.
   explicit RunClock(Transport& transport);
 
   double now() const { return std::chrono::duration<double>(Clock::now() - origin_).count(); }

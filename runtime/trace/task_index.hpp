@@ -18,6 +18,7 @@ class TaskIndex {
     for (const TaskRecord& t : tasks) by_key_.emplace(Key{t.epoch, t.in_epoch, t.sub_model, t.stage}, &t);
   }
 
+  std::size_t size() const { return by_key_.size(); }
   const TaskRecord* find(std::uint32_t epoch, std::int32_t in_epoch, std::uint32_t sub_model,
                          std::int16_t stage) const {
     const auto found = by_key_.find({epoch, in_epoch, sub_model, stage});

@@ -161,6 +161,52 @@ TEST(Profile, BlamesWhoeverHeldTheScheduler) {
   EXPECT_DOUBLE_EQ(p.path.tasks, 6);
 }
 
+/// The clock of rank 1 is ahead by more than tasks take: what released a task was over before it, whatever clocks say.
+TEST(Profile, FollowsChainsThroughClocksThatDisagree) {
+  constexpr double ahead = 3;
+  Trace t = empty_trace(2, 1, 2);
+  t.lists.epochs.push_back({.first_round = 0, .rounds = 3, .epoch = 0});
+  work(t, 0, 0, 4);
+  work(t, 1, ahead, 4 + ahead);
+  for (int round = 0; round < 4; ++round) {  // each second another rank's task, released by that of the round before
+    const int rank = round % 2;
+    const double start = round + rank * ahead;
+    TaskRecord& task = t.lists.tasks.emplace_back();
+    task = {.start = start, .end = start + 1, .sent = start, .ready = start, .handed = start, .in_epoch = round};
+    task.rank = rank;
+    task.sub_model = static_cast<std::uint32_t>(rank);
+    if (round == 0) continue;
+    task.sent = round + (1 - rank) * ahead;
+    task.released_by = static_cast<std::uint32_t>(1 - rank);
+    task.release = Release::message;
+    task.released_before = true;
+  }
+  sort(t.lists);
+  const Profile p = profile_of(t);
+  ASSERT_FALSE(p.path.segments.empty());
+  EXPECT_EQ(p.path.segments.front().task->in_epoch, 0);
+  EXPECT_DOUBLE_EQ(p.path.scheduling, 0);
+  EXPECT_DOUBLE_EQ(p.path.tasks + p.path.messages, 7) << "from the first start to the last end";
+}
+
+/// A file may say anything: tasks that release each other.
+TEST(Profile, EndsChainsThatGoRound) {
+  Trace t = empty_trace(2, 1, 2);
+  t.lists.epochs.push_back({.first_round = 0, .rounds = 1, .epoch = 0});
+  work(t, 0, 0, 9);
+  for (const int rank : {0, 1}) {
+    TaskRecord& task = t.lists.tasks.emplace_back();
+    task = {.start = 7, .end = 8, .sent = 7, .ready = 7, .handed = 7, .in_epoch = 1};
+    task.rank = rank;
+    task.sub_model = static_cast<std::uint32_t>(rank);
+    task.released_by = static_cast<std::uint32_t>(1 - rank);
+    task.release = Release::message;
+  }
+  const Profile p = profile_of(t);
+  EXPECT_DOUBLE_EQ(p.path.tasks, 1);
+  EXPECT_DOUBLE_EQ(p.path.scheduling, 7);
+}
+
 TEST(Profile, MeasuresWhatBalancingGained) {
   Trace t = empty_trace(2, 1, 2);
   t.settings.balancer = "refine";
