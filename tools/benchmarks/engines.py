@@ -14,7 +14,7 @@ from .runs import ROOT, run
 SETTINGS = {
     "bullet": ["--dt", "1/120"],
     "bullet64": ["--dt", "1/120"],
-    "impulse": ["--dt", "1/150", "--iterations", "2"],
+    "impulse": ["--dt", "1/60", "--iterations", "3", "--set", "run.overlap_recovery=0.12"],
     "ode": ["--dt", "1/240"],
     "soft_sphere": ["--dt", "1.4e-4", "--set", "materials.grain.restitution=0.5"],
 }
@@ -66,10 +66,16 @@ def print_engines(rows, count, repeats):
               f"{r['bytes_per_element'] or 0:9.0f} {' '.join(errors)}")
 
 
+def wanted(arguments, names):
+    """Those asked for, and the reference; all if none was."""
+    asked = set(arguments.engines.split(",")) if arguments.engines else None
+    return [n for n in names if asked is None or n in asked or n == REFERENCE]
+
+
 def engines(arguments):
     count = arguments.count or 3_000
     alone = ["--sub-models", "1", "--threads", "1", "--scheduler", "serial"]
-    cases = [(e, alone + SETTINGS.get(e, [])) for e in listed_engines(arguments.moraine)]
+    cases = [(e, alone + SETTINGS.get(e, [])) for e in wanted(arguments, listed_engines(arguments.moraine))]
     runs = {name: [] for name, _ in cases}
     rows = []
     for seed in range(1, arguments.repeats + 1):
@@ -84,7 +90,7 @@ def engines(arguments):
         little = run(arguments.moraine, "dam", ["--engine", name, "--set", "count=8", "--steps", "10"] + options)
         grown = max(r["peak_rss_bytes"] for r in runs[name]) - little["peak_rss_bytes"]
         rows.append(engine_row(name, runs[name], grown / count))
-    for code in CODES:
+    for code in wanted(arguments, CODES):
         if beside := peer(arguments, code, count):
             rows.append(engine_row(code, beside, None))
     print_engines(rows, count, arguments.repeats)
