@@ -78,13 +78,34 @@ MORAINE_INLINE unsigned bits(const I8& lanes) {
 #endif
 }
 
+#if defined(__AVX2__)
+/// Every set of lanes as their numbers in order, four bits each.
+struct LaneLists {
+  std::uint32_t of[1U << batch_lanes] = {};
+  constexpr LaneLists() {
+    for (unsigned lanes = 0; lanes < 1U << batch_lanes; ++lanes)
+      for (unsigned k = 0, at = 0; k < batch_lanes; ++k)
+        if (lanes >> k & 1U) of[lanes] |= k << 4 * at++;
+  }
+};
+constexpr LaneLists lane_lists;
+#endif
+
 /// Writes the numbers of those lanes; returns the new end. There must be room for eight.
 MORAINE_INLINE std::uint32_t* append(std::uint32_t* end, const std::uint32_t* numbers, unsigned lanes) {
+#if defined(__AVX2__)
+  const __m256i list = _mm256_set1_epi32(static_cast<int>(lane_lists.of[lanes]));
+  const __m256i order = _mm256_srlv_epi32(list, _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
+  const __m256i from = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(end), _mm256_permutevar8x32_epi32(from, order));
+  return end + __builtin_popcount(lanes);
+#else
   for (std::size_t k = 0; k < batch_lanes; ++k) {
     *end = numbers[k];
     end += lanes >> k & 1U;
   }
   return end;
+#endif
 }
 /// The lanes from `at` that are below `end`.
 MORAINE_INLINE unsigned in_use(std::size_t at, std::size_t end) {
