@@ -10,13 +10,13 @@ namespace {
 struct CellRange {
   int low, high;
 };
-MORAINE_INLINE int cell(const CellTable& t, int axis, float x) {
-  const float c = (x - t.low[axis]) * t.inverse[axis];
-  const int last = t.size[axis] - 1;
+MORAINE_INLINE int cell(const Cells& cells, int axis, float x) {
+  const float c = (x - cells.low[axis]) * cells.inverse[axis];
+  const int last = cells.size[axis] - 1;
   return c > 0 ? (c < static_cast<float>(last) ? static_cast<int>(c) : last) : 0;
 }
-MORAINE_INLINE CellRange cells(const CellTable& t, int axis, float x, float reach) {
-  return {cell(t, axis, x - reach), cell(t, axis, x + reach)};
+MORAINE_INLINE CellRange range(const Cells& cells, int axis, float x, float reach) {
+  return {cell(cells, axis, x - reach), cell(cells, axis, x + reach)};
 }
 
 /// Appends the bodies above a number between two places of a table that are near the ball p.
@@ -38,10 +38,11 @@ std::size_t near(const NearTask& task, const float* p, std::int32_t above, std::
   for (std::size_t c = 0; c < task.class_count; ++c) {
     const CellTable& t = task.classes[c];
     const float reach = p[3] + t.largest + task.skin;
-    const CellRange x = cells(t, 0, p[0], reach), y = cells(t, 1, p[1], reach), z = cells(t, 2, p[2], reach);
+    const CellRange x = range(t.cells, 0, p[0], reach), y = range(t.cells, 1, p[1], reach),
+                    z = range(t.cells, 2, p[2], reach);
     for (int k = z.low; k <= z.high; ++k)
       for (int j = y.low; j <= y.high; ++j) {
-        const std::uint32_t* row = t.start + (static_cast<std::size_t>(k) * t.size[1] + j) * t.size[0];
+        const std::uint32_t* row = t.start + (static_cast<std::size_t>(k) * t.cells.size[1] + j) * t.cells.size[0];
         end = append_near(task, t, p, above, row[x.low], row[x.high + 1], end);
       }
   }

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "physics/impulse/cells.hpp"
 
 namespace moraine::impulse {
 namespace {
@@ -10,18 +13,7 @@ namespace {
 /// Along x neighbours lie one behind the other in memory, so cells are thin there.
 constexpr float cells_per_reach[3] = {4, 1, 1};
 
-int cell_along(const CellTable& t, int axis, float x) {
-  const float c = (x - t.low[axis]) * t.inverse[axis];
-  const int last = t.size[axis] - 1;
-  return c > 0 ? (c < static_cast<float>(last) ? static_cast<int>(c) : last) : 0;
-}
-
-/// Cells of this size in a box; their number can be too large for an integer.
-double cells_in(const Vec& extent, const float (&size)[3]) {
-  double cells = 1;
-  for (int axis = 0; axis < 3; ++axis) cells *= std::floor(static_cast<double>(extent[axis] / size[axis])) + 1;
-  return cells;
-}
+std::size_t size_class(float radius, float smallest) { return static_cast<std::size_t>(std::ilogb(radius / smallest)); }
 
 /// Few values, nearly in order.
 void sort_short(std::uint32_t* begin, std::uint32_t* end) {
@@ -82,13 +74,20 @@ void NearList::find_near(std::span<const Vec> position, std::span<const std::uin
 
 void NearList::classify(std::span<const Vec> position) {
   for (SizeClass& c : classes_) c.members.clear();
-  float smallest = std::numeric_limits<float>::infinity();
-  for (const Vec& p : position) smallest = std::min(smallest, p.w());
-  for (std::uint32_t i = 0; i < position.size(); ++i) {
-    const auto size_class = static_cast<std::size_t>(std::ilogb(position[i].w() / smallest));
-    if (size_class >= classes_.size()) classes_.resize(size_class + 1);
-    classes_[size_class].members.push_back(i);
+  float smallest = std::numeric_limits<float>::infinity(), largest = 0;
+  for (const Vec& p : position) {
+    smallest = std::min(smallest, p.w());
+    largest = std::max(largest, p.w());
   }
+  if (position.empty()) return;
+  classes_.resize(std::max(classes_.size(), size_class(largest, smallest) + 1));
+  if (largest < 2 * smallest) {
+    classes_[0].members.resize(position.size());
+    std::iota(classes_[0].members.begin(), classes_[0].members.end(), 0U);
+    return;
+  }
+  for (std::uint32_t i = 0; i < position.size(); ++i)
+    classes_[size_class(position[i].w(), smallest)].members.push_back(i);
 }
 
 void NearList::SizeClass::sort(std::span<const Vec> position, float skin) {
@@ -111,35 +110,19 @@ void NearList::SizeClass::follow(std::span<const Place> moved) {
 }
 
 void NearList::SizeClass::measure(std::span<const Vec> position, float skin) {
-  const Vec far = Vec::Constant(std::numeric_limits<float>::max());
-  Vec low = far, high = -far;
-  for (const std::uint32_t i : members) {
-    if (!position[i].allFinite()) continue;
-    low = low.cwiseMin(position[i]);
-    high = high.cwiseMax(position[i]);
-  }
-  if (high.w() < 0) low = high = Vec::Zero();  // none of them is anywhere
-  table.largest = high.w();
+  Extent extent;
+  for (const std::uint32_t i : members) extent.add(position[i]);
+  table.largest = std::max(extent.high.w(), 0.0F);  // none of them may be anywhere
   float size[3];
   for (int axis = 0; axis < 3; ++axis) size[axis] = (2 * table.largest + skin) / cells_per_reach[axis];
-  const double most = 8.0 * static_cast<double>(members.size()) + 27;
-  while (cells_in(high - low, size) > most)
-    for (float& s : size) s *= 1.26F;
-  for (int axis = 0; axis < 3; ++axis) {
-    table.low[axis] = low[axis];
-    table.inverse[axis] = 1 / size[axis];
-    table.size[axis] = static_cast<int>((high[axis] - low[axis]) / size[axis]) + 1;
-  }
+  table.cells = cells_in(extent, size, 8.0 * static_cast<double>(members.size()) + 27);
 }
 
 void NearList::SizeClass::count(std::span<const Vec> position) {
-  start.assign(static_cast<std::size_t>(table.size[0]) * table.size[1] * table.size[2] + 1, 0);
+  start.assign(cell_count(table.cells) + 1, 0);
   cell.resize(members.size());
   for (std::size_t k = 0; k < members.size(); ++k) {
-    const Vec& p = position[members[k]];
-    const std::size_t row =
-        static_cast<std::size_t>(cell_along(table, 2, p.z())) * table.size[1] + cell_along(table, 1, p.y());
-    cell[k] = static_cast<std::uint32_t>(row * table.size[0] + cell_along(table, 0, p.x()));
+    cell[k] = cell_of(table.cells, position[members[k]]);
     ++start[cell[k] + 1];
   }
   for (std::size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];

@@ -84,10 +84,15 @@ struct PairTask {
   float* carried = nullptr;  ///< PairTable
 };
 
+/// A box of cells.
+struct Cells {
+  float low[3] = {}, inverse[3] = {};  ///< corner of the first cell; cells per length
+  int size[3] = {1, 1, 1};
+};
+
 /// Bodies in the order of the cells in which they lie.
 struct CellTable {
-  float low[3], inverse[3];  ///< corner of the first cell; cells per length
-  int size[3];
+  Cells cells;
   const std::uint32_t* start;       ///< of every cell, x first
   const float *x, *y, *z, *radius;  ///< with spare lanes at the end
   const std::uint32_t* body;

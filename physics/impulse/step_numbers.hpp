@@ -6,7 +6,8 @@ namespace moraine::impulse {
 
 /// In scaled units; StepRule works them out.
 struct StepNumbers {
-  static constexpr float push_limit = 1;  ///< overlaps are removed no faster
+  static constexpr float push_limit = 1;        ///< overlaps are removed no faster
+  static constexpr float largest_reach = 0.5F;  ///< [diameters] lists hold what is within reach
   static constexpr float again =
       0.5F;  ///< largest rebound of a shared body in the step after an impact, of the one before
 

@@ -32,7 +32,7 @@ StepRule::StepRule(const WorldSettings& settings, const Units& units)
   StepNumbers& n = numbers_;
   n.h = h;
   n.slack = gap_slack + h * fall.norm();
-  n.reach = n.slack + std::min(fast_impact * h, largest_way);
+  n.reach = std::min(n.slack + std::min(fast_impact * h, largest_way), StepNumbers::largest_reach);
   n.threshold = settings.gravity.isZero() ? 0 : bounce_threshold;
   n.impulse_scale = static_cast<float>(impulse_scale(settings.overlap_recovery));
   n.mass_scale = 1 - n.impulse_scale;

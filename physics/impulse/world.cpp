@@ -12,8 +12,11 @@ namespace {
 
 // Lists last longer with a larger skin, but hold more pairs. [diameters]
 constexpr float least_skin = 0.25F, largest_skin = 0.6F;
+static_assert(largest_skin > StepNumbers::largest_reach);
+constexpr float wall_skins = 2;            ///< that of walls over that of pairs: of a wall only bodies move
 constexpr std::size_t many_newcomers = 8;  ///< lists are made anew if more than a share of 1 / 8 is new
 constexpr float steps_per_list = 6;        ///< that the fastest body should be free to go
+constexpr float sure = 0.998F;             ///< whatever was rounded
 
 }  // namespace
 
@@ -60,7 +63,7 @@ void ImpulseWorld::step(double t) {
   settle();
   bonds_.break_long(bodies_);
   walls_.walls().move(t);
-  if (!listed_ || moved_too_far()) list_anew();
+  keep_lists();
   gather();
   bodies_.fall(rule_.fall, rule_.restitution);
   warm_start();
@@ -129,13 +132,33 @@ void ImpulseWorld::relax() {
   walls_.sweep(bodies_.moving.data());
 }
 
-/// Lists hold every pair that may come within the reach of contacts.
-bool ImpulseWorld::moved_too_far() const {
-  const float limit = 0.499F * (skin_ - rule_.reach());
-  bool far = walls_.walls().moved() >= static_cast<double>(limit) * units_.length;
-  for (Place p = 0; p < bodies_.size(); ++p)
-    far |= (bodies_.position[p] - listed_at_[p]).squaredNorm() >= limit * limit;
-  return far;
+/// Lists hold every pair and every wall that may come within the reach of contacts.
+void ImpulseWorld::keep_lists() {
+  const float way = listed_ ? farthest_way() : 0;
+  if (!listed_ || walls_may_be_near(way)) {
+    list_walls();
+    list_pairs();
+    gone_ = 0;
+  } else if (pairs_may_be_near(way)) {
+    list_pairs();
+    gone_ += way;
+  }
+}
+
+bool ImpulseWorld::walls_may_be_near(float way) const {
+  const float of_walls = static_cast<float>(walls_.walls().moved() / units_.length);
+  return gone_ + way + of_walls >= sure * (wall_skin_ - rule_.reach());
+}
+
+bool ImpulseWorld::pairs_may_be_near(float way) {
+  const float limit = sure * (skin_ - rule_.reach());
+  return 2 * way >= limit && drift_.between(listed_at_, bodies_.position) >= limit;
+}
+
+float ImpulseWorld::farthest_way() const {
+  float way2 = 0;
+  for (Place p = 0; p < bodies_.size(); ++p) way2 = std::max(way2, (bodies_.position[p] - listed_at_[p]).squaredNorm());
+  return std::sqrt(way2);
 }
 
 float ImpulseWorld::suitable_skin() const {
@@ -145,20 +168,21 @@ float ImpulseWorld::suitable_skin() const {
   return std::clamp(rule_.reach() + 2 * way, least_skin, largest_skin);
 }
 
-void ImpulseWorld::list_anew() {
+void ImpulseWorld::list_pairs() {
   skin_ = suitable_skin();
-  list_walls();
   pairs_.list(bodies_, skin_);
   listed_at_ = bodies_.position;
+  drift_.list(listed_at_, 2 * wall_skin_);  // none goes farther than walls allow
   listed_ = true;
 }
 
 /// Grid and balls are as large as the bodies themselves, so they are not kept.
 void ImpulseWorld::list_walls() {
+  wall_skin_ = wall_skins * suitable_skin();
   std::vector<native::Ball> balls(bodies_.size());
   for (Place p = 0; p < bodies_.size(); ++p)
     balls[p] = {units_.position(bodies_.position[p]), units_.length * static_cast<double>(bodies_.radius(p))};
-  const double skin = static_cast<double>(skin_) * units_.length;
+  const double skin = static_cast<double>(wall_skin_) * units_.length;
   native::SizedGrid grid;
   grid.build(balls, skin);
   walls_.list(grid, balls, bodies_.ghost, skin);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "physics/impulse/bonds.hpp"
+#include "physics/impulse/drift.hpp"
 #include "physics/impulse/pair_contacts.hpp"
 #include "physics/impulse/wall_contacts.hpp"
 #include "physics/world.hpp"
@@ -48,8 +49,11 @@ class ImpulseWorld final : public World {
   void settle();
   void admit(std::size_t before);
   void drop_lists();
-  bool moved_too_far() const;
-  void list_anew();
+  void keep_lists();
+  bool walls_may_be_near(float way) const;
+  bool pairs_may_be_near(float way);
+  float farthest_way() const;
+  void list_pairs();
   void list_walls();
   float suitable_skin() const;
   void gather();
@@ -68,9 +72,11 @@ class ImpulseWorld final : public World {
   Bonds bonds_;
   bool turns_ = false;  ///< some body may turn
 
-  std::vector<Vec> listed_at_;  ///< positions to which lists refer
+  std::vector<Vec> listed_at_;  ///< positions to which the list of pairs refers
+  Drift drift_;
   std::vector<Place> newcomers_;
-  float skin_ = 0;  ///< of the lists
+  float skin_ = 0, wall_skin_ = 0;  ///< of the lists of pairs and walls
+  float gone_ = 0;                  ///< how far bodies may have moved from the list of walls to that of pairs
   bool listed_ = false;
 };
 
