@@ -123,17 +123,17 @@ void NearList::SizeClass::count(std::span<const Vec> position) {
   cell.resize(members.size());
   for (std::size_t k = 0; k < members.size(); ++k) {
     cell[k] = cell_of(table.cells, position[members[k]]);
-    ++start[cell[k] + 1];
+    ++start[cell[k]];
   }
   for (std::size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
 }
 
+/// Backwards, from the ends of the cells to where they start.
 void NearList::SizeClass::fill(std::span<const Vec> position) {
-  cursor.assign(start.begin(), start.end() - 1);
   for (std::vector<float>* v : {&x, &y, &z, &radius}) v->resize(members.size() + batch_lanes);
   body.resize(members.size() + batch_lanes);
-  for (std::size_t k = 0; k < members.size(); ++k) {
-    const std::uint32_t to = cursor[cell[k]]++;
+  for (std::size_t k = members.size(); k-- > 0;) {
+    const std::uint32_t to = --start[cell[k]];
     const Vec& p = position[members[k]];
     x[to] = p.x();
     y[to] = p.y();

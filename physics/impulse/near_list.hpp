@@ -38,7 +38,7 @@ class NearList {
  private:
   struct SizeClass {
     std::vector<std::uint32_t> members;  ///< ascending, when built
-    std::vector<std::uint32_t> start, cursor, cell, body;
+    std::vector<std::uint32_t> start, cell, body;
     std::vector<float> x, y, z, radius;  ///< in the order of cells; spare lanes at the end
     CellTable table;
     void sort(std::span<const Vec> position, float skin);

@@ -193,14 +193,17 @@ BodyArrays PairContacts::arrays(Bodies& bodies) {
 
 PairTable PairContacts::table() { return {pairs_.lower(), pairs_.higher(), pairs_.size(), numbers_of(carried_)}; }
 
+/// In pieces: what is close stays in the processor's cache, and room is made for those that meet, not for all.
 void PairContacts::find(Bodies& bodies) {
+  constexpr std::size_t piece = 4096;
+  std::array<std::uint32_t, piece + batch_lanes> close;
   std::swap(meeting_, met_);
   meeting_.count = 0;
-  if (pairs_.size() > 0) {
-    close_.resize(pairs_.size() + batch_lanes);
-    if (meeting_.at.size() < close_.size()) meeting_.at.resize(close_.size());
-    meeting_.count = kernels_.find(
-        {arrays(bodies), table(), rule_.numbers(), laws(), features(), close_.data(), meeting_.at.data()});
+  PairFindTask task{arrays(bodies), table(), rule_.numbers(), laws(), features(), 0, 0, close.data()};
+  for (; task.begin < pairs_.size(); task.begin = task.end) {
+    task.end = std::min(task.begin + piece, pairs_.size());
+    task.out = meeting_.more(task.end - task.begin + batch_lanes);
+    meeting_.count += kernels_.find(task);
   }
 }
 

@@ -57,6 +57,11 @@ class PairContacts {
   struct Places {
     std::vector<std::uint32_t> at;
     std::size_t count = 0;
+    /// Room for so many behind those that count.
+    std::uint32_t* more(std::size_t room) {
+      if (at.size() < count + room) at.resize(count + count / 4 + room);
+      return at.data() + count;
+    }
     void add(std::uint32_t place) {
       if (count == at.size()) at.resize(2 * count + 64);
       at[count++] = place;
@@ -93,7 +98,6 @@ class PairContacts {
   bool listed_ = false;
   std::vector<std::array<float, 4>> carried_;  ///< by place in the list, as in PairTable; zeros without contact
   std::vector<NearList::Pair> away_;      ///< while there is no list: pairs that carry the first of these, ascending
-  std::vector<std::uint32_t> close_;      ///< pairs within reach
   Places meeting_, met_;                  ///< pairs in contact in this step and the one before, ascending
   std::vector<Taken> taken_;              ///< by body
   std::array<Places, colours> coloured_;  ///< pairs of each colour

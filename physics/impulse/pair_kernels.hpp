@@ -59,8 +59,9 @@ struct PairFindTask {
   StepNumbers numbers;
   PairLaws laws;
   PairFeatures features;
-  std::uint32_t* close = nullptr;  ///< room for all pairs and a batch
-  std::uint32_t* out = nullptr;    ///< room for all pairs and a batch
+  std::size_t begin = 0, end = 0;  ///< places in the table
+  std::uint32_t* close = nullptr;  ///< room for all of them and a batch
+  std::uint32_t* out = nullptr;    ///< the same
 };
 
 struct PairStartTask {
@@ -119,7 +120,7 @@ struct PairKernels {
   /// Writes the bodies with numbers above this one whose surfaces are less than the skin away from a ball (x, y, z,
   /// radius), in any order; returns how many. Room for all bodies and a batch is needed.
   std::size_t (*near)(const NearTask&, const float* ball, std::int32_t above, std::uint32_t* out);
-  /// Writes the places of the pairs that may meet in this step, ascending; returns how many. Before gravity acts.
+  /// Writes the places of those pairs that may meet in this step, ascending; returns how many. Before gravity acts.
   std::size_t (*find)(const PairFindTask&);
   /// Fills batches and gives bodies the impulses of the step before, turned with the contact.
   void (*start)(const PairStartTask&);

@@ -30,12 +30,12 @@ MORAINE_INLINE PairIndices indices(const PairTable& table, const std::uint32_t* 
 /// Those within reach.
 MORAINE_INLINE std::size_t find_close(const PairFindTask& task) {
   std::uint32_t* end = task.close;
-  for (std::size_t at = 0; at < task.table.count; at += batch_lanes) {
-    const PairIndices i = indices(task.table, nullptr, at, task.table.count);
+  for (std::size_t at = task.begin; at < task.end; at += batch_lanes) {
+    const PairIndices i = indices(task.table, nullptr, at, task.end);
     const Four a = gather(task.bodies.position, i.a, 4), b = gather(task.bodies.position, i.b, 4);
     const Wide between = a.xyz - b.xyz;
     const F8 limit = a.w + b.w + all(task.numbers.reach);
-    end = append(end, i.pair, bits(dot(between, between) < limit * limit) & in_use(at, task.table.count));
+    end = append(end, i.pair, bits(dot(between, between) < limit * limit) & in_use(at, task.end));
   }
   return static_cast<std::size_t>(end - task.close);
 }

@@ -60,7 +60,13 @@ struct Sample {
   void find(const PairKernels& kernels) {
     close.resize(lower.size() + batch_lanes);
     meeting.resize(close.size());
-    meeting.resize(kernels.find({arrays(), table(), numbers, {law.data(), 2}, features, close.data(), meeting.data()}));
+    std::size_t count = 0;
+    PairFindTask task{arrays(), table(), numbers, {law.data(), 2}, features, 0, lower.size() / 2 + 3, close.data()};
+    for (; task.begin < task.end; task.begin = task.end, task.end = lower.size()) {
+      task.out = meeting.data() + count;
+      count += kernels.find(task);
+    }
+    meeting.resize(count);
   }
   void solve(const PairKernels& kernels) {
     kernels.start({arrays(), table(), numbers, {law.data(), 2}, features, pairs.data(), pairs.size(), batches.data()});
