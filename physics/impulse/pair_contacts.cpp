@@ -266,12 +266,16 @@ void PairContacts::start_group(Bodies& bodies) {
 }
 
 PairTask PairContacts::task(Bodies& bodies) {
-  return {arrays(bodies), batches_.data(), batch_count_, rule_.numbers(), laws(), features(), numbers_of(carried_)};
+  return {arrays(bodies), batches_.data(), batch_count_, rule_.numbers(), laws(), features()};
 }
 
-void PairContacts::relax(Bodies& bodies) {
-  for (const std::uint32_t k : met_.all()) carried_[k] = nothing;
-  kernels_.relax(task(bodies));
+void PairContacts::relax(Bodies& bodies, bool last) {
+  PairTask relaxing = task(bodies);
+  if (last) {
+    for (const std::uint32_t k : met_.all()) carried_[k] = nothing;
+    relaxing.carried = numbers_of(carried_);
+  }
+  kernels_.relax(relaxing);
 }
 
 }  // namespace moraine::impulse

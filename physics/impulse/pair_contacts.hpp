@@ -40,8 +40,9 @@ class PairContacts {
   /// Makes contacts of them and gives bodies the impulses of the step before.
   void start(Bodies& bodies);
   void sweep(Bodies& bodies) { kernels_.sweep(task(bodies)); }
-  /// The last sweep, after bodies have moved by their velocities over the step.
-  void relax(Bodies& bodies);
+  /// A sweep after bodies have moved by their velocities over the step. What contacts have after the last one they
+  /// carry on to the next step.
+  void relax(Bodies& bodies, bool last);
 
   std::size_t count() const { return meeting_.count; }
   /// Of the last step, ascending (a, b).

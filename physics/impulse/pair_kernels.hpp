@@ -82,7 +82,7 @@ struct PairTask {
   StepNumbers numbers;
   PairLaws laws;
   PairFeatures features;
-  float* carried = nullptr;  ///< PairTable
+  float* carried = nullptr;  ///< PairTable; null where nothing is to be carried on
 };
 
 /// A box of cells.
@@ -125,7 +125,7 @@ struct PairKernels {
   /// Fills batches and gives bodies the impulses of the step before, turned with the contact.
   void (*start)(const PairStartTask&);
   void (*sweep)(const PairTask&);
-  /// The sweep after bodies have moved: what remains is to part with the right speed. Contacts that met within the step
+  /// A sweep after bodies have moved: what remains is to part with the right speed. Contacts that met within the step
   /// do so along the line on which they touch: that keeps angular momentum. Writes what the contacts carry on.
   void (*relax)(const PairTask&);
   /// Moves bodies by their velocities over h, and turns them. Turns of more than a revolution come out smaller.

@@ -255,7 +255,7 @@ void relax_all(const PairTask& task) {
     const F8 approach = choose(carries, -speed_after(batch), choose(apart, all(1e10F), zero));
     turn(batch, carries & apart, task.bodies);
     correct<Friction>(batch, task, {all(1), zero}, approach);
-    carry(batch, task.carried);
+    if (task.carried != nullptr) carry(batch, task.carried);
   }
 }
 

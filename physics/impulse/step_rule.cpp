@@ -23,7 +23,8 @@ double impulse_scale(double recovery) {
 StepRule::StepRule(const WorldSettings& settings, const Units& units)
     : h(static_cast<float>(settings.substep / units.time)),
       fall(narrow(settings.substep / units.velocity() * settings.gravity)),
-      sweeps(settings.iterations),
+      sweeps((settings.iterations + 1) / 2),
+      relaxing(settings.iterations + 1 - sweeps),
       friction(settings.features.friction),
       restitution(settings.features.restitution),
       materials_(settings.scene->materials.materials.size()) {

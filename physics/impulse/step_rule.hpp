@@ -14,8 +14,8 @@ class StepRule {
   StepRule(const WorldSettings& settings, const Units& units);
 
   float h = 0;
-  Vec fall = Vec::Zero();  ///< velocity that gravity adds in a step
-  int sweeps = 1;
+  Vec fall = Vec::Zero();        ///< velocity that gravity adds in a step
+  int sweeps = 1, relaxing = 1;  ///< before and after positions
   bool friction = false, restitution = false;
 
   const StepNumbers& numbers() const { return numbers_; }

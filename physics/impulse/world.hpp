@@ -13,8 +13,9 @@
 namespace moraine::impulse {
 
 /// A step (Catto, "Solver2D" 2024, there a sub-step of "soft step"): gravity; last step's impulses; sweeps over all
-/// rows with soft contacts; positions; one more sweep that takes back the speed with which overlaps were removed, and
-/// in which impacts rebound. Order: bonds, pairs by colour, boundaries.
+/// rows with soft contacts; positions; relaxing sweeps that take back the speed with which overlaps were removed, and
+/// in which impacts rebound. Catto relaxes once; here half of all sweeps relax, for those decide which velocities
+/// remain. Order: bonds, pairs by colour, boundaries.
 class ImpulseWorld final : public World {
  public:
   ImpulseWorld(const WorldSettings& settings, const Vec3& origin);
@@ -59,7 +60,7 @@ class ImpulseWorld final : public World {
   void gather();
   void warm_start();
   void sweep();
-  void relax();
+  void relax(bool last);
   Contact contact(const PairRow& row) const;
   Contact contact(const WallRow& row) const;
 

@@ -21,7 +21,7 @@ TEST(ImpulseDam, ComesToLieWhereLammpsSays) {
   const Vec3 centre = s.ledger.mass_moment / s.ledger.mass;
   EXPECT_NEAR(centre.x(), 14.937, 0.01 * 14.937);
   EXPECT_NEAR(centre.z(), 7.414, 0.01 * 7.414);
-  EXPECT_LT(run.model().overlaps().max, 0.02);
+  EXPECT_LT(run.model().overlaps().max, 0.025);
 }
 
 double centre_of_mass_x(int parts) {
