@@ -14,7 +14,7 @@ from .runs import ROOT, run
 SETTINGS = {
     "bullet": ["--dt", "1/120"],
     "bullet64": ["--dt", "1/120"],
-    "impulse": ["--dt", "1/60", "--iterations", "3", "--set", "run.overlap_recovery=0.12"],
+    "impulse": ["--dt", "1/60", "--iterations", "4"],
     "ode": ["--dt", "1/240"],
     "soft_sphere": ["--dt", "1.4e-4", "--set", "materials.grain.restitution=0.5"],
 }
