@@ -31,16 +31,10 @@ inline std::size_t cell_count(const Cells& c) {
          static_cast<std::size_t>(c.size[2]);
 }
 
-/// The nearest one for what lies outside, the first one for what is nowhere.
-inline int cell_along(const Cells& cells, int axis, float x) {
-  const float c = (x - cells.low[axis]) * cells.inverse[axis];
-  const int last = cells.size[axis] - 1;
-  return c > 0 ? (c < static_cast<float>(last) ? static_cast<int>(c) : last) : 0;
-}
 /// Counted along x first.
 inline std::uint32_t cell_of(const Cells& cells, const Vec& p) {
-  const int row = cell_along(cells, 2, p.z()) * cells.size[1] + cell_along(cells, 1, p.y());
-  return static_cast<std::uint32_t>(row * cells.size[0] + cell_along(cells, 0, p.x()));
+  const int row = cells.along(2, p.z()) * cells.size[1] + cells.along(1, p.y());
+  return static_cast<std::uint32_t>(row * cells.size[0] + cells.along(0, p.x()));
 }
 
 }  // namespace moraine::impulse

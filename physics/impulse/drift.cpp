@@ -37,7 +37,7 @@ float Drift::between(std::span<const Vec> at, std::span<const Vec> now) {
 
 void Drift::collect(std::span<const Vec> at, std::span<const Vec> now) {
   ways_.assign(cell_count(cells_), {});
-  for (std::size_t i = 0; i < at.size(); ++i) ways_[cell_of(cells_, at[i])].add(Vec(now[i] - at[i]));
+  for (std::size_t i = 0; i < at.size(); ++i) ways_[cell_of(cells_, at[i])].add(now[i] - at[i]);
 }
 
 Extent Drift::around(int x, int y, int z) const {

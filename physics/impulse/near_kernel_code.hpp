@@ -10,13 +10,8 @@ namespace {
 struct CellRange {
   int low, high;
 };
-MORAINE_INLINE int cell(const Cells& cells, int axis, float x) {
-  const float c = (x - cells.low[axis]) * cells.inverse[axis];
-  const int last = cells.size[axis] - 1;
-  return c > 0 ? (c < static_cast<float>(last) ? static_cast<int>(c) : last) : 0;
-}
 MORAINE_INLINE CellRange range(const Cells& cells, int axis, float x, float reach) {
-  return {cell(cells, axis, x - reach), cell(cells, axis, x + reach)};
+  return {cells.along(axis, x - reach), cells.along(axis, x + reach)};
 }
 
 /// Appends the bodies above a number between two places of a table that are near the ball p.

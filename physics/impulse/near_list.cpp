@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "physics/impulse/cells.hpp"
 
@@ -81,13 +80,9 @@ void NearList::classify(std::span<const Vec> position) {
   }
   if (position.empty()) return;
   classes_.resize(std::max(classes_.size(), size_class(largest, smallest) + 1));
-  if (largest < 2 * smallest) {
-    classes_[0].members.resize(position.size());
-    std::iota(classes_[0].members.begin(), classes_[0].members.end(), 0U);
-    return;
-  }
+  const bool alike = largest < 2 * smallest;
   for (std::uint32_t i = 0; i < position.size(); ++i)
-    classes_[size_class(position[i].w(), smallest)].members.push_back(i);
+    classes_[alike ? 0 : size_class(position[i].w(), smallest)].members.push_back(i);
 }
 
 void NearList::SizeClass::sort(std::span<const Vec> position, float skin) {

@@ -64,7 +64,7 @@ class PairContacts {
       return at.data() + count;
     }
     void add(std::uint32_t place) {
-      if (count == at.size()) at.resize(2 * count + 64);
+      if (count == at.size()) more(64);
       at[count++] = place;
     }
     std::span<const std::uint32_t> all() const { return {at.data(), count}; }

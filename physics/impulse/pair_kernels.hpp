@@ -89,6 +89,14 @@ struct PairTask {
 struct Cells {
   float low[3] = {}, inverse[3] = {};  ///< corner of the first cell; cells per length
   int size[3] = {1, 1, 1};
+
+  /// The nearest one for what lies outside, the first one for what is nowhere. Always inlined: what includes it is
+  /// compiled for several processors, and the linker must not choose one of them.
+  [[gnu::always_inline]] int along(int axis, float x) const {
+    const float c = (x - low[axis]) * inverse[axis];
+    const int last = size[axis] - 1;
+    return c > 0 ? (c < static_cast<float>(last) ? static_cast<int>(c) : last) : 0;
+  }
 };
 
 /// Bodies in the order of the cells in which they lie.

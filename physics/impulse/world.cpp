@@ -135,14 +135,12 @@ void ImpulseWorld::relax(bool last) {
 /// Lists hold every pair and every wall that may come within the reach of contacts.
 void ImpulseWorld::keep_lists() {
   const float way = listed_ ? farthest_way() : 0;
-  if (!listed_ || walls_may_be_near(way)) {
-    list_walls();
-    list_pairs();
-    gone_ = 0;
-  } else if (pairs_may_be_near(way)) {
-    list_pairs();
-    gone_ += way;
-  }
+  const bool walls = !listed_ || walls_may_be_near(way);
+  if (!walls && !pairs_may_be_near(way)) return;
+  skin_ = suitable_skin();
+  gone_ += way;
+  if (walls) list_walls();
+  list_pairs();
 }
 
 bool ImpulseWorld::walls_may_be_near(float way) const {
@@ -169,7 +167,6 @@ float ImpulseWorld::suitable_skin() const {
 }
 
 void ImpulseWorld::list_pairs() {
-  skin_ = suitable_skin();
   pairs_.list(bodies_, skin_);
   listed_at_ = bodies_.position;
   drift_.list(listed_at_, 2 * wall_skin_);  // none goes farther than walls allow
@@ -178,7 +175,8 @@ void ImpulseWorld::list_pairs() {
 
 /// Grid and balls are as large as the bodies themselves, so they are not kept.
 void ImpulseWorld::list_walls() {
-  wall_skin_ = wall_skins * suitable_skin();
+  wall_skin_ = wall_skins * skin_;
+  gone_ = 0;
   std::vector<native::Ball> balls(bodies_.size());
   for (Place p = 0; p < bodies_.size(); ++p)
     balls[p] = {units_.position(bodies_.position[p]), units_.length * static_cast<double>(bodies_.radius(p))};
