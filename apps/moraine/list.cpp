@@ -10,6 +10,7 @@
 #include "ghosting/split.hpp"
 #include "output/writer.hpp"
 #include "physics/world.hpp"
+#include "runtime/balance/load_model.hpp"
 #include "runtime/balance/registry.hpp"
 #include "runtime/schedule/registry.hpp"
 
@@ -30,6 +31,7 @@ int list() {
   print("couplings", couplings());
   print("schedulers", runtime::schedulers());
   print("balancers", runtime::balancers());
+  print("load predictions", runtime::predictors());
   print("output formats", writers());
   print("guards", guards());
   return 0;

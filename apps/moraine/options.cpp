@@ -34,6 +34,7 @@ constexpr std::array table{
     Row{"--scheduler", "run.scheduler", "order of tasks, see 'moraine list'"},
     Row{"--balancer", "run.balancer", "which rank owns which sub-model, see 'moraine list'"},
     Row{"--balance-every", "run.balance_every", "steps from one balance to the next, at least"},
+    Row{"--load-prediction", "run.load_prediction", "how loads are predicted for a balance, see 'moraine list'"},
     Row{"--checkpoint-every", "run.checkpoint_every", "steps from one checkpoint to the next, at least; 0: none"},
     Row{"--restart", "run.restart", "go on from a checkpoint: its folder, or 'latest' of --out"},
     Row{"--trace", "run.trace", "write what ran where and when: .json for Perfetto, else compact"},

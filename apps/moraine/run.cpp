@@ -102,6 +102,7 @@ class Run {
     o.scheduler = run.scheduler;
     o.transport = &transport;
     o.balance.balancer = run.balancer;
+    o.balance.predictor = run.load_prediction;
     o.balance.every = run.balance_every * substeps;
     o.balance.measured = run.balance_measured;
     o.checkpoint.folder = checkpoint_folder(scene);

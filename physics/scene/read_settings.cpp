@@ -89,17 +89,18 @@ void read_time(const Node& root, TimeSettings& time) {
 void read_run(const Node& root, RunSettings& run) {
   const auto node = root.find("run");
   if (!node) return;
-  node->allow({"engine",       "engine_profile",
-               "sub_models",   "split",
-               "coupling",     "coupling_leak",
-               "skin",         "recut_ghost_share",
-               "iterations",   "overlap_recovery",
-               "scheduler",    "threads",
-               "balancer",     "balance_every",
-               "balance_by",   "checkpoint_every",
-               "restart",      "trace",
-               "trace_window", "max_speed",
-               "owners",       "skip_threshold"});
+  node->allow({"engine",         "engine_profile",
+               "sub_models",     "split",
+               "coupling",       "coupling_leak",
+               "skin",           "recut_ghost_share",
+               "iterations",     "overlap_recovery",
+               "scheduler",      "threads",
+               "balancer",       "balance_every",
+               "balance_by",     "checkpoint_every",
+               "restart",        "trace",
+               "trace_window",   "max_speed",
+               "owners",         "skip_threshold",
+               "load_prediction"});
   run.engine = node->text("engine", run.engine);
   run.engine_profile = node->text("engine_profile", run.engine_profile);
   run.sub_models = read_sub_models(*node);
@@ -117,6 +118,7 @@ void read_run(const Node& root, RunSettings& run) {
   run.owners = read_owners(*node);
   run.balance_every = read_int(*node, "balance_every", run.balance_every, 1);
   run.balance_measured = read_measured(*node);
+  run.load_prediction = node->text("load_prediction", run.load_prediction);
   run.checkpoint_every = read_int(*node, "checkpoint_every", run.checkpoint_every, 0);
   run.restart = node->text("restart", run.restart);
   run.trace = node->text("trace", run.trace);

@@ -40,9 +40,10 @@ struct RunSettings {
   std::vector<int> owners;          ///< sub-models that each rank owns at first, in order; empty: blocks of even size
   int balance_every = 1;            ///< steps from one balance to the next, at least
   bool balance_measured = true;     ///< by measured time; else by counted work: the same plans every time
-  int checkpoint_every = 0;         ///< steps from one checkpoint to the next, at least; 0: none
-  std::string restart;              ///< folder of a checkpoint, or "latest"; empty: from the start
-  std::string trace;                ///< file of what ran where and when; empty: none
+  std::string load_prediction = "last";  ///< the next load of a sub-model from its last ones
+  int checkpoint_every = 0;              ///< steps from one checkpoint to the next, at least; 0: none
+  std::string restart;                   ///< folder of a checkpoint, or "latest"; empty: from the start
+  std::string trace;                     ///< file of what ran where and when; empty: none
   struct TraceWindow {
     std::int64_t from = 0;   ///< steps from .. to - 1
     std::int64_t to = -1;    ///< -1: to the end

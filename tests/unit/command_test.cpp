@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runtime/trace/chrome.hpp"
 #include "tests/support/shell.hpp"
 #include "tests/unit/scene_text.hpp"
 
@@ -56,6 +57,14 @@ TEST_F(Command, RunsAScene) {
   EXPECT_EQ(ended.status, 0) << ended.text;
   EXPECT_NE(ended.text.find("two balls"), std::string::npos);
   EXPECT_EQ(summary().at("elements"), 2);
+}
+
+TEST_F(Command, PredictsLoadsAsTold) {
+  const std::string trace = out() + ".trace";
+  const Ended ended = run(good, "--load-prediction trend --trace " + trace);
+  EXPECT_EQ(ended.status, 0) << ended.text;
+  EXPECT_EQ(runtime::read_trace(trace).settings.predictor, "trend");
+  expect_input_error(run(good, "--load-prediction fortune"), "no load predictor is called 'fortune'");
 }
 
 TEST_F(Command, WithoutAnythingIsBadUsage) {
