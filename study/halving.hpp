@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,5 +34,12 @@ struct Step {
 /// Accepts and rejects what is sure. Else asks for as many seeds as should decide, at least `enough`; gives up if more
 /// than `most` would be needed.
 Step next_step(std::span<const Comparison> comparisons, double wish, int runs, int enough, int most);
+
+/// The verdict on each of so many candidates, the cheapest first, up to the first that is accepted. `judge(i)` may
+/// gather evidence that all are judged by, which raises `evidence()`: then all but the rejected are judged again, as it
+/// may decide what was undecided. Those after the accepted one have none.
+std::vector<std::optional<Step::Kind>> first_accepted(std::size_t candidates,
+                                                      const std::function<Step::Kind(std::size_t)>& judge,
+                                                      const std::function<int()>& evidence);
 
 }  // namespace moraine::study

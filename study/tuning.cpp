@@ -25,10 +25,13 @@ class Stage {
     compare_with(options.seeds);
   }
 
-  void compare_with(int reference_seeds) {
-    reference_runs_ = run_reference(subject_, laboratory_, options_.first_seed, reference_seeds);
+  void compare_with(int seeds) {
+    if (seeds <= reference_seeds()) return;
+    reference_runs_ = run_reference(subject_, laboratory_, options_.first_seed, seeds);
     yardstick_.emplace(subject_.scene(), reference_runs_);
   }
+
+  int reference_seeds() const { return static_cast<int>(reference_runs_.size()); }
 
   std::optional<Row> reference() const {
     if (reference_runs_.empty()) return std::nullopt;
@@ -92,33 +95,29 @@ std::vector<Setting> screen(Stage& stage, const std::vector<Setting>& settings, 
 /// Runs a candidate with fresh seeds until it is judged.
 Step::Kind judge(Stage& stage, const Setting& setting, const TuningOptions& options, Row& row) {
   int seeds = std::min(first_look, options.fresh_seeds);
-  int reference_seeds = options.seeds;
   while (true) {
     row = stage.measure(setting, options.first_seed + fresh_after, seeds);
     if (!row.good()) return Step::Kind::reject;
     const Step step = next_step(row.counted, options.wish, seeds, options.fresh_seeds, options.most_seeds);
-    if (step.kind != Step::Kind::more_seeds && step.kind != Step::Kind::more_of_both) return step.kind;
+    const bool both = step.kind == Step::Kind::more_of_both;
+    if (step.kind != Step::Kind::more_seeds && !both) return step.kind;
+    if (step.seeds <= seeds && (!both || step.seeds <= stage.reference_seeds())) return Step::Kind::give_up;
+    if (both) stage.compare_with(step.seeds);
     seeds = std::max(seeds, step.seeds);
-    if (step.kind != Step::Kind::more_of_both) continue;
-    if (step.seeds <= reference_seeds) return Step::Kind::give_up;
-    reference_seeds = step.seeds;
-    stage.compare_with(reference_seeds);
   }
 }
 
 void confirm(Stage& stage, const std::vector<Setting>& candidates, const TuningOptions& options, Tuned& tuned) {
-  for (const Setting& candidate : candidates) {
-    Row row;
-    switch (judge(stage, stage.subject().resolve(candidate.choices), options, row)) {
-      case Step::Kind::accept:
-        tuned.found = row;
-        return;
-      case Step::Kind::reject:
-        tuned.too_bad.push_back(row);
-        break;
-      default:
-        tuned.undecided.push_back(row);
-    }
+  std::vector<Row> rows(candidates.size());
+  const auto verdicts = first_accepted(
+      candidates.size(),
+      [&](std::size_t i) { return judge(stage, stage.subject().resolve(candidates[i].choices), options, rows[i]); },
+      [&] { return stage.reference_seeds(); });
+  for (std::size_t i = 0; i < rows.size() && verdicts[i]; ++i) {
+    if (verdicts[i] == Step::Kind::accept)
+      tuned.found = rows[i];
+    else
+      (verdicts[i] == Step::Kind::reject ? tuned.too_bad : tuned.undecided).push_back(rows[i]);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "study/axis.hpp"
 #include "study/halving.hpp"
@@ -96,8 +97,45 @@ TEST(Halving, AsksForTheSeedsThatDecideOrGivesUp) {
   EXPECT_EQ(more.kind, Step::Kind::more_seeds);
   EXPECT_GT(more.seeds, 5);
   EXPECT_LE(more.seeds, 20);
+  EXPECT_EQ(next_step(measured(1.01, 0.012, 5), 0.021, 5, 5, more.seeds - 1).seeds, more.seeds - 1)
+      << "no more than so";
   EXPECT_EQ(next_step(measured(1.01, 0.1, 5), 0.02, 5, 5, 12).kind, Step::Kind::give_up);
   EXPECT_EQ(next_step(measured(1.02, 0.001, 5), 0.02, 5, 5, 12).kind, Step::Kind::give_up) << "on the line";
+}
+
+using Kind = Step::Kind;
+
+TEST(FirstAccepted, StopsThere) {
+  const std::array kinds{Kind::reject, Kind::give_up, Kind::accept, Kind::accept};
+  const auto verdicts = first_accepted(
+      4, [&](std::size_t i) { return kinds[i]; }, [] { return 3; });
+  EXPECT_EQ(verdicts, (std::vector<std::optional<Kind>>{Kind::reject, Kind::give_up, Kind::accept, {}}));
+}
+
+/// The third candidate makes the reference have more seeds. These decide the second one; the first stays rejected.
+TEST(FirstAccepted, MoreEvidenceMayDecideWhatWasUndecided) {
+  int seeds = 3;
+  std::array<int, 4> judged{};
+  const auto judge = [&](std::size_t i) {
+    ++judged[i];
+    if (i == 2) seeds = 9;
+    if (i == 1) return seeds == 9 ? Kind::accept : Kind::give_up;
+    return i == 0 ? Kind::reject : Kind::accept;
+  };
+  const auto verdicts = first_accepted(4, judge, [&] { return seeds; });
+  EXPECT_EQ(verdicts, (std::vector<std::optional<Kind>>{Kind::reject, Kind::accept, {}, {}}));
+  EXPECT_EQ(judged, (std::array{1, 2, 1, 0}));
+}
+
+/// What was accepted by less evidence need not be by more.
+TEST(FirstAccepted, MoreEvidenceMayTakeAnAcceptanceBack) {
+  int seeds = 3;
+  const auto judge = [&](std::size_t i) {
+    const int known = std::exchange(seeds, 9);
+    return i == 0 && known == 9 ? Kind::reject : Kind::accept;
+  };
+  const auto verdicts = first_accepted(2, judge, [&] { return seeds; });
+  EXPECT_EQ(verdicts, (std::vector<std::optional<Kind>>{Kind::reject, Kind::accept}));
 }
 
 TEST(LogAxis, PutsDecadesAtEqualDistances) {
