@@ -59,7 +59,7 @@ Enclosure::Enclosure(const Scene& scene) : scene_(&scene) {
   for (const Boundary& b : scene.boundaries) {
     const auto* mesh = std::get_if<TriangleMesh>(&b.geometry);
     if (std::holds_alternative<Plane>(b.geometry) || (mesh && closed(*mesh)))
-      walls_.push_back({&b, mesh ? box_of(*mesh) : Bounds{}, b.pose});
+      walls_.push_back({.boundary = &b, .mesh = mesh, .box = mesh ? box_of(*mesh) : Bounds{}});
   }
   if (!scene.gravity.isZero()) down_ = scene.gravity.normalized();
   first_lowest_ = -std::numeric_limits<double>::infinity();
@@ -70,8 +70,7 @@ Enclosure::Enclosure(const Scene& scene) : scene_(&scene) {
 
 void Enclosure::move(double t) {
   if (!scene_) return;
-  for (Wall& w : walls_)
-    if (w.boundary->motion.moves()) w.pose = w.boundary->motion.pose(w.boundary->pose, t);
+  for (Wall& w : walls_) w.place(w.boundary->motion.pose(w.boundary->pose, t));
   find_lowest(t);
 }
 
@@ -84,22 +83,30 @@ void Enclosure::find_lowest(double t) {
   lowest_ = std::max(lowest_, first_lowest_);
 }
 
-double Enclosure::beyond(const Wall& wall, const Pose& pose, const Vec3& point) {
-  if (const auto* plane = std::get_if<Plane>(&wall.boundary->geometry))
-    return -(pose.orientation * plane->normal).dot(point - (pose.position + pose.orientation * plane->point));
-  return wall.box.distance(into(pose, point));
+void Enclosure::Wall::place(const Pose& at) {
+  pose = at;
+  if (mesh) return;
+  const auto& plane = std::get<Plane>(boundary->geometry);
+  normal = at.orientation * plane.normal;
+  offset = normal.dot(at.position + at.orientation * plane.point);
 }
 
-bool Enclosure::held(const Wall& wall, const Vec3& start) {
-  const auto* mesh = std::get_if<TriangleMesh>(&wall.boundary->geometry);
-  return mesh ? inside(*mesh, into(wall.boundary->pose, start)) : beyond(wall, wall.boundary->pose, start) <= 0;
+double Enclosure::Wall::beyond(const Vec3& point) const {
+  return mesh ? box.distance(into(pose, point)) : offset - normal.dot(point);
+}
+
+bool Enclosure::Wall::held(const Vec3& start) const {
+  if (mesh) return inside(*mesh, into(boundary->pose, start));
+  Wall first{.boundary = boundary};
+  first.place(boundary->pose);
+  return first.beyond(start) <= 0;
 }
 
 double Enclosure::beyond(const Vec3& point, const Vec3& start) const {
   double farthest = 0;
   for (const Wall& w : walls_) {
-    const double far = beyond(w, w.pose, point);
-    if (far > farthest && held(w, start)) farthest = far;
+    const double far = w.beyond(point);
+    if (far > farthest && w.held(start)) farthest = far;
   }
   return farthest;
 }

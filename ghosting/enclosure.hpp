@@ -29,11 +29,16 @@ class Enclosure {
   /// A half space or a box that is not to be left.
   struct Wall {
     const Boundary* boundary = nullptr;
-    Bounds box;  ///< of a mesh, in its frame
-    Pose pose;   ///< now
+    const TriangleMesh* mesh = nullptr;  ///< else a plane
+    Bounds box = {};                     ///< of a mesh, in its frame
+    Pose pose = {};                      ///< now
+    Vec3 normal = Vec3::Zero();          ///< of a plane, now: it holds points with normal * point >= offset
+    double offset = 0;
+
+    void place(const Pose& at);
+    double beyond(const Vec3& point) const;
+    bool held(const Vec3& start) const;
   };
-  static double beyond(const Wall& wall, const Pose& pose, const Vec3& point);
-  static bool held(const Wall& wall, const Vec3& start);
   void find_lowest(double t);
 
   const Scene* scene_ = nullptr;

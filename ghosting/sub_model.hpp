@@ -223,6 +223,7 @@ class SubModel final : public runtime::SubModel {
   double largest_radius_ = 0;  ///< of the members [m]
   double approached_ = 0;      ///< how far a member and a neighbour's may have come closer since ghosts were chosen [m]
   Ledger ledger_;              ///< what was given; what members have is summed when asked for
+  double total_mass_ = 0;      ///< of the members, in this substep
   Vec3 mass_moment_before_ = Vec3::Zero();  ///< when forces acted in this substep: sum of m x
   double disagreement_ = 0;
   std::uint64_t disagreements_ = 0;

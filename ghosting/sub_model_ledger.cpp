@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a sub-model's elements have of momentum and energy, what they were given, and which of them are at their limits.
 #include <algorithm>
-#include <numeric>
 
 #include "ghosting/sub_model.hpp"
 
@@ -19,16 +18,19 @@ Vec3 SubModel::spin(std::size_t member) const {
 /// Where the members' masses are when forces act.
 void SubModel::open_account() {
   const double ahead = context_.engine->force_time * context_.world.substep;
+  total_mass_ = 0;
   mass_moment_before_.setZero();
-  for (std::size_t i = 0; i < members_.size(); ++i)
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    total_mass_ += mass_[i];
     mass_moment_before_ += mass_[i] * (motions_[i].position + ahead * motions_[i].twist.linear);
+  }
 }
 
 /// What gravity and boundaries gave in this substep.
 void SubModel::close_account() {
   if (members_.empty()) return;
   const Vec3 step = context_.scene->gravity * context_.world.substep;
-  const Impulse gravity{std::accumulate(mass_.begin(), mass_.end(), 0.0) * step, mass_moment_before_.cross(step)};
+  const Impulse gravity{total_mass_ * step, mass_moment_before_.cross(step)};
   const Impulse walls = world_->boundary_impulse();
   ledger_.given += gravity;
   ledger_.given += walls;
