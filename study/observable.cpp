@@ -49,6 +49,12 @@ double energy(const Scene& scene, double reference) {
   return least > 0 ? least : 1;
 }
 
+/// The reference's own, at least the weight of an element.
+double force(const Scene& scene, double reference) {
+  const double least = std::max(std::abs(reference), scene.typical_mass() * scene.gravity.norm());
+  return least > 0 ? least : 1;
+}
+
 double bonds(const Scene& scene, double) { return std::max(1.0, static_cast<double>(scene.bonds.size())); }
 
 constexpr std::array table{
@@ -69,6 +75,9 @@ constexpr std::array table{
     Observable{"overlap_max", "largest overlap", "diameters", "/overlap/max", one},
     Observable{"overlap_mean", "mean overlap", "diameters", "/overlap/mean", one},
     Observable{"kinetic_energy", "at the end", "J", "/kinetic_energy", energy},
+    Observable{"dissipated", "energy lost since the start", "J", "/energy/dissipated", energy},
+    Observable{"energy_gained", "energy that came from nowhere", "J", "/energy/gained", energy},
+    Observable{"floor_force", "of all boundaries along z, mean over the last fifth", "N", "/boundary_force/2", force},
     Observable{"bonds_broken", "bonds that broke, of all", "", "/bonds/broken", bonds},
 };
 

@@ -79,6 +79,36 @@ TEST_F(Study, MeasuresEverySetting) {
   EXPECT_NE(read_file(std::filesystem::path(out()) / "plot.svg").find("</svg>"), std::string::npos);
 }
 
+/// Of what moves against the common centre one minus restitution squared is lost, and nothing gained.
+TEST_F(Study, KeepsTheLedgerOfEnergy) {
+  const std::string relative = "1000 * pi / 6 / 4 * speed^2";
+  rewrite(changed(scene, "expect:",
+                  "expect:\n  dissipated: {value: 0.75 * " + relative + ", scale: " + relative +
+                      "}\n  energy_gained: {value: 0, scale: " + relative + "}"));
+  ASSERT_EQ(command("tradeoff").status, 0);
+  for (const Json& row : read("settings.json").at("rows")) {
+    EXPECT_LT(row.at("error").at("high"), 0.05) << row;
+    EXPECT_TRUE(row.at("observables").contains("dissipated") && row.at("observables").contains("energy_gained"));
+  }
+}
+
+TEST_F(Study, MeasuresWhatTheFloorCarries) {
+  rewrite(R"(
+name: resting
+gravity: [0, 0, -9.81]
+materials: {ball: {density: 1000, restitution: 0}}
+elements:
+  - {packing: list, shape: {sphere: 0.5}, items: [{at: [0, 0, 0.5]}, {at: [2, 0, 0.5]}]}
+boundaries: [{plane: {normal: [0, 0, 1]}, material: ball}]
+time: {dt: 1 / 100, duration: 1}
+tradeoff: {seeds: 2, grid: [{engine: [bullet, impulse], sub_models: [1, 2]}]}
+expect: {floor_force: 2 * 1000 * pi / 6 * 9.81}
+)");
+  const Ended ended = command("tradeoff");
+  ASSERT_EQ(ended.status, 0) << ended.text;
+  for (const Json& row : read("settings.json").at("rows")) EXPECT_LT(row.at("error").at("high"), 0.01) << row;
+}
+
 TEST_F(Study, ItsCommandsRunWhatItMeasured) {
   ASSERT_EQ(command("tradeoff").status, 0);
   const Json all = read("settings.json");
