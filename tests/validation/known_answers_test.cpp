@@ -94,8 +94,7 @@ std::vector<Trial> all_trials() {
     for (const Case& c : some)
       for (const Engine& e : engines())
         for (const bool cut : {false, true})
-          if ((!c.boxes || e.supports(Geometry{Cuboid{}})) && (!c.bonds || e.bonds))
-            out.push_back({c, {std::string(e.name), cut}});
+          if (c.runs_with(e)) out.push_back({c, {std::string(e.name), cut}});
   return out;
 }
 

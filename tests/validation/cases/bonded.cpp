@@ -114,7 +114,7 @@ std::vector<Case> bonded() {
       {"B2 pair breaks", "at its length; in steps of 10 ms", pair_breaks, 1, 1},
       {"B4 wave in a chain", "of 20: w = 2 sqrt(K / m) sin(pi / 40), step T / 1000", chain_wave, 0.05, 0.01},
   };
-  for (Case& c : all) c.bonds = true;
+  for (Case& c : all) c.needs = needs_bonds;
   return all;
 }
 

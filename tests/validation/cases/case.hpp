@@ -15,10 +15,19 @@ namespace moraine::test {
 /// How a case is run.
 struct Setting {
   std::string engine;
-  bool cut = false;  ///< every body a sub-model of its own, at most three
+  bool cut = false;  ///< every body a sub-model of its own, at most three, unless the case says otherwise
 
   /// Forces of springs need steps of their own.
   bool springs() const { return engine == "soft_sphere"; }
+};
+
+/// What a case asks of an engine, added up.
+enum Needs : unsigned {
+  spheres_only = 0,
+  needs_boxes = 1,  ///< shapes other than spheres
+  needs_bonds = 2,
+  needs_impulses = 4,  ///< rigid contacts: what sticks has no slip left
+  needs_springs = 8,   ///< rolling friction, and contacts that give way along the surface
 };
 
 struct Case {
@@ -27,8 +36,9 @@ struct Case {
   double (*error)(const Setting&);
   double tolerance;          ///< of engines that solve for impulses
   double tolerance_springs;  ///< of engines with springs
-  bool boxes = false;        ///< needs shapes other than spheres
-  bool bonds = false;
+  unsigned needs = spheres_only;
+
+  bool runs_with(const Engine& engine) const;
 };
 
 std::vector<Case> one_body();
@@ -37,8 +47,8 @@ std::vector<Case> bonded();
 std::vector<Case> many_bodies();
 std::vector<Case> orders();
 
-/// Reads a scene for a setting: its engine, its cut, and steps of `dt` [s] or of a part of the engine's limit if that
-/// is shorter.
+/// Reads a scene for a setting: its engine, its cut into as many as `run.sub_models` says or else three at most, and
+/// steps of `dt` [s] or of a part of the engine's limit if that is shorter.
 ModelRun trial(const Setting& setting, const std::string& text, double dt, std::vector<Override> overrides = {},
                double part_of_limit = 0.1);
 

@@ -145,6 +145,16 @@ double slide_to_roll(const Setting& s) {
   return most;
 }
 
+/// The weight's torque mu_r R m g is taken up by friction.
+double rolling_decays(const Setting& s) {
+  const double resistance = 0.1;
+  ModelRun run = trial(s,
+                       spheres(side_by_side(s, ", velocity: [1, 0, 0], angular_velocity: [0, 10, 0]", 0.1, 0.2),
+                               ball(s, fmt::format("friction: 0.5, rolling_friction: {}", resistance)), floor_at_zero),
+                       step);
+  return acceleration_error(run, -5.0 / 7 * resistance * g);
+}
+
 double spin(const Setting& s) {
   ModelRun run = trial(
       s, spheres(side_by_side(s, ", angular_velocity: [60, 0, 80]", 0, 0.2), ball(s, "friction: 0.5"), weightless),
@@ -189,13 +199,14 @@ std::vector<Case> one_body() {
        0.01, 1e-6},
       {"S2 bounce", "e = 0.3, 0.5, 0.8, 1 from 1 m", bounce, 0.02, 0.005},
       {"S2 small bounce", "e = 0.5 from 1 mm", small_bounce, 0.02, 0.005},
-      {"S3 block slides", "a = g (sin 30° - 0.3 cos 30°), heading 0° and 45°", block_slides, 0.02, 0.02, true},
-      {"S3 block sticks", "from mu = tan 30° on, heading 0° and 45°", block_sticks, 0.02, 0.02, true},
+      {"S3 block slides", "a = g (sin 30° - 0.3 cos 30°), heading 0° and 45°", block_slides, 0.02, 0.02, needs_boxes},
+      {"S3 block sticks", "from mu = tan 30° on, heading 0° and 45°", block_sticks, 0.02, 0.02, needs_boxes},
       {"S4 ball rolls", "a = 5/7 g sin 30°", ball_rolls, 0.02, 0.01},
       {"S4 ball slides", "a = g (sin 30° - 0.1 cos 30°)", ball_slides, 0.02, 0.01},
       {"S5 sliding to rolling", "v = 5/7 v0", slide_to_roll, 0.01, 0.01},
       {"S6 spin", "of a sphere, 10 s alone", spin, 1e-5, 1e-9},
-      {"S6 top", "momentum and energy after 10 turns, tilted by 10°", top, 0.01, 0.01, true},
+      {"S6 rolling decay", "rolling friction mu_r = 0.1: a = -5/7 mu_r g", rolling_decays, 0.02, 0.02, needs_springs},
+      {"S6 top", "momentum and energy after 10 turns, tilted by 10°", top, 0.01, 0.01, needs_boxes},
   };
 }
 

@@ -94,7 +94,7 @@ std::vector<Case> orders() {
   return {
       {"O1 free fall", "order 1 in the step (springs: exact)", free_fall, 0.05, 1e-9},
       {"O2 elastic bounce", "energy: order 1 in the step (springs: 2)", elastic_bounce, 0.2, 0.2},
-      {"O3 bonded pair", "period: order 2 in the step", pair_period, 0.2, 0.2, false, true},
+      {"O3 bonded pair", "period: order 2 in the step", pair_period, 0.2, 0.2, needs_bonds},
       {"O4 stack on a floor", "depth: at least order 2 in the step, or none (springs: weight / stiffness)",
        stack_overlap, 0.2, 0.01},
   };

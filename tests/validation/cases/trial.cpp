@@ -5,15 +5,29 @@
 #include "tests/validation/cases/case.hpp"
 
 namespace moraine::test {
+namespace {
+
+std::size_t parts_of(const Setting& setting, const Scene& scene) {
+  if (!setting.cut) return 1;
+  const auto most = static_cast<std::size_t>(scene.run.sub_models > 0 ? scene.run.sub_models : 3);
+  return std::min(most, scene.elements.size());
+}
+
+}  // namespace
+
+bool Case::runs_with(const Engine& engine) const {
+  const bool springs = Setting{std::string(engine.name)}.springs();
+  return (!(needs & needs_boxes) || engine.supports(Geometry{Cuboid{}})) && (!(needs & needs_bonds) || engine.bonds) &&
+         (!(needs & needs_impulses) || !springs) && (!(needs & needs_springs) || springs);
+}
 
 ModelRun trial(const Setting& setting, const std::string& text, double dt, std::vector<Override> overrides,
                double part_of_limit) {
   overrides.push_back(set("run.engine", setting.engine));
   const Scene as_written = scene_of(text, overrides);
-  const std::size_t parts = setting.cut ? std::min<std::size_t>(3, as_written.elements.size()) : 1;
   const StepLimit limit = find_engine(setting.engine).step_limit(as_written);
   overrides.push_back(set("time.dt", std::min(dt, part_of_limit * limit.substep)));
-  overrides.push_back(set("run.sub_models", static_cast<double>(parts)));
+  overrides.push_back(set("run.sub_models", static_cast<double>(parts_of(setting, as_written))));
   overrides.push_back(set("run.split", "slabs"));
   return ModelRun(scene_of(text, overrides));
 }
