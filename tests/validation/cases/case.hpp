@@ -43,6 +43,7 @@ struct Case {
 
 std::vector<Case> one_body();
 std::vector<Case> two_bodies();
+std::vector<Case> chung_ooi();
 std::vector<Case> bonded();
 std::vector<Case> many_bodies();
 std::vector<Case> orders();

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "tests/validation/cases/case.hpp"
 
@@ -109,43 +108,6 @@ double oblique_budgets(const Setting& s) {
   return most;
 }
 
-struct Angle {
-  double degrees, tangential, spin;  ///< v_t' / v_t, [rad/s]
-};
-constexpr Angle angles[] = {
-    {40, 0.783, 544.2}, {50, 0.847, 456.7}, {60, 0.895, 355.2}, {70, 0.934, 243.0}, {80, 0.968, 123.4}};
-
-double plane_glance(const Setting& s) {
-  double most = 0;
-  for (const Angle& a : angles) {
-    const double angle = a.degrees * std::numbers::pi / 180, vt = 3.9 * std::sin(angle), vn = 3.9 * std::cos(angle);
-    const std::string hertz = s.springs() ? ", young: 3.8e11, poisson: 0.23" : "";
-    ModelRun run = trial(s,
-                         weightless + "materials: {ball: {density: 4000, friction: 0.092, restitution: 0.98" + hertz +
-                             "}}\nelements:\n  - {packing: list, shape: {sphere: 0.0025}, items: [" +
-                             fmt::format("{{at: [0, 0, 0.002501], velocity: [{:.17g}, 0, {:.17g}]}}]}}\n", vt, -vn) +
-                             "boundaries: [{plane: {normal: [0, 0, 1]}}]\ntime: {dt: 1e-6, steps: 1}\n",
-                         1e-5);
-    run_until(run, s.springs() ? 2e-5 : 5e-4);
-    const ElementState e = run.model().states().front();
-    most =
-        std::max({most, std::abs(e.twist.linear.x() / vt - a.tangential), std::abs(e.twist.angular.y() / a.spin - 1)});
-  }
-  return most;
-}
-
-/// Opposite spins: the surfaces that meet have the same speed, so nothing rubs.
-double opposite_spins(const Setting& s) {
-  ModelRun run =
-      trial(s,
-            spheres("{id: 1, at: [-0.11, 0, 0], velocity: [0.2, 0, 0], angular_velocity: [0, 0, 10]}, {id: 2, at: "
-                    "[0.11, 0, 0], velocity: [-0.2, 0, 0], angular_velocity: [0, 0, -10]}",
-                    ball(s, "restitution: 0.5, friction: 0.4"), weightless),
-            step);
-  run_until(run, 0.2);
-  return std::max((run.spin(1) - Vec3(0, 0, 10)).norm() / 10, std::abs(run.velocity(1).y()));
-}
-
 }  // namespace
 
 std::vector<Case> two_bodies() {
@@ -155,8 +117,6 @@ std::vector<Case> two_bodies() {
       {"T2 oblique, speeds", "e = 0.8: slides at mu = 0.05, sticks at 0.2; along, across and spin [m/s]",
        oblique_speeds, 0.02, 0.02},
       {"T2 oblique, budgets", "momenta about a point 100 m away, energy not gained", oblique_budgets, 1e-5, 1e-10},
-      {"T3 glancing a plane", "Chung & Ooi (2011) test 4, 40° to 80°: v_t'/v_t and spin", plane_glance, 0.05, 0.01},
-      {"T3 opposite spins", "Chung & Ooi (2011) test 7: spin stays", opposite_spins, 1e-3, 1e-9},
   };
 }
 

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// Impacts with friction and spin of Chung & Ooi (2011), Granular Matter 13, 643. While the surfaces slide all the time
+// the answer is that of rigid bodies, for every contact. What sticks has no slip left between rigid bodies; springs
+// along the surface swing back, as the curves of the paper say.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/validation/cases/case.hpp"
+
+namespace moraine::test {
+namespace {
+
+constexpr double step = 1e-3;  // s
+
+/// A value on the abscissa and what is expected there.
+struct Point {
+  double at, expected;
+};
+
+struct Angle {
+  double degrees, tangential, spin;  ///< v_t' / v_t, [rad/s]
+};
+constexpr Angle angles[] = {
+    {40, 0.783, 544.2}, {50, 0.847, 456.7}, {60, 0.895, 355.2}, {70, 0.934, 243.0}, {80, 0.968, 123.4}};
+
+double plane_glance(const Setting& s) {
+  double most = 0;
+  for (const Angle& a : angles) {
+    const double angle = a.degrees * std::numbers::pi / 180, vt = 3.9 * std::sin(angle), vn = 3.9 * std::cos(angle);
+    const std::string hertz = s.springs() ? ", young: 3.8e11, poisson: 0.23" : "";
+    ModelRun run = trial(s,
+                         weightless + "materials: {ball: {density: 4000, friction: 0.092, restitution: 0.98" + hertz +
+                             "}}\nelements:\n  - {packing: list, shape: {sphere: 0.0025}, items: [" +
+                             fmt::format("{{at: [0, 0, 0.002501], velocity: [{:.17g}, 0, {:.17g}]}}]}}\n", vt, -vn) +
+                             "boundaries: [{plane: {normal: [0, 0, 1]}}]\ntime: {dt: 1e-6, steps: 1}\n",
+                         1e-5);
+    run_until(run, s.springs() ? 2e-5 : 5e-4);
+    const ElementState e = run.model().states().front();
+    most =
+        std::max({most, std::abs(e.twist.linear.x() / vt - a.tangential), std::abs(e.twist.angular.y() / a.spin - 1)});
+  }
+  return most;
+}
+
+/// Opposite spins: the surfaces that meet have the same speed, so nothing rubs.
+double opposite_spins(const Setting& s) {
+  ModelRun run =
+      trial(s,
+            spheres("{id: 1, at: [-0.11, 0, 0], velocity: [0.2, 0, 0], angular_velocity: [0, 0, 10]}, {id: 2, at: "
+                    "[0.11, 0, 0], velocity: [-0.2, 0, 0], angular_velocity: [0, 0, -10]}",
+                    ball(s, "restitution: 0.5, friction: 0.4"), weightless),
+            step);
+  run_until(run, 0.2);
+  return std::max((run.spin(1) - Vec3(0, 0, 10)).norm() / 10, std::abs(run.velocity(1).y()));
+}
+
+/// What two alike materials say; the one called rigid is a thousand times stiffer, if that counts.
+std::string on_rigid(const Setting& s, const std::string& contact, double density, double young, double poisson) {
+  const auto material = [&](const char* name, double stiffness) {
+    const std::string hertz = s.springs() ? fmt::format(", young: {}, poisson: {}", stiffness, poisson) : "";
+    return fmt::format("{}: {{density: {}, {}{}}}", name, density, contact, hertz);
+  };
+  return weightless + "materials: {" + material("ball", young) + ", " + material("rigid", 1000 * young) +
+         "}\nboundaries: [{plane: {normal: [0, 0, 1]}, material: rigid}]\n";
+}
+
+constexpr double small = 1e-5, fast = 5, rough = 0.3;  // m, m/s, coefficient of friction
+
+/// Test 5: a steel ball of 10 um comes down with 5 m/s and x mu times as much along the plane.
+ElementState small_ball(const Setting& s, double x) {
+  ModelRun run = trial(s,
+                       on_rigid(s, fmt::format("friction: {}, restitution: 1", rough), 7850, 2.08e11, 0.3) +
+                           fmt::format("elements:\n  - {{packing: list, material: ball, shape: {{sphere: {}}}, items: "
+                                       "[{{id: 1, at: [0, 0, {:.17g}], velocity: [{:.17g}, 0, {}]}}]}}\n",
+                                       small, 1.01 * small, x * rough * fast, -fast) +
+                           "time: {dt: 1e-8, steps: 1}\n",
+                       1e-8);
+  run_until(run, 2e-7);
+  return run.of(1);
+}
+
+/// R w' / (mu v_n)
+double spun(const ElementState& e) { return small * e.twist.angular.y() / (rough * fast); }
+
+double small_ball_slides(const Setting& s) {
+  double most = 0;
+  for (const double x : {8.0, 12.0, 20.0}) most = std::max(most, std::abs(spun(small_ball(s, x)) / 5 - 1));
+  return most;
+}
+
+double small_ball_sticks(const Setting& s) {
+  double most = 0;
+  for (const double x : {1.0, 2.0, 4.0, 6.0}) {
+    const ElementState e = small_ball(s, x);
+    most = std::max(most, std::abs(e.twist.linear.x() - small * e.twist.angular.y()) / (x * rough * fast));
+  }
+  return most;
+}
+
+/// Finite elements, from the paper's graph.
+constexpr Point finite_elements[] = {{0.595, 0.406}, {1.185, 0.982}, {1.896, 1.793}, {2.763, 2.856},
+                                     {3.301, 3.441}, {4.688, 4.569}, {7.029, 4.941}};
+
+/// Of the greatest.
+double small_ball_swings_back(const Setting& s) {
+  double most = 0;
+  for (const Point& p : finite_elements) most = std::max(most, std::abs(spun(small_ball(s, p.at)) - p.expected) / 5);
+  return most;
+}
+
+/// Speed of a ball's surface against what it meets, before and after.
+struct Slip {
+  double before, after;
+  /// As the paper counts it: more than 0 if the slip was turned round.
+  double turned() const { return -after / before; }
+};
+
+constexpr double radius = 0.1, closing = 0.2;  // m, m/s
+
+/// X = (7/2) mu (1 + e) v_n / (w R): below 1 it slides all the time.
+double spin_for(double x) { return 3.5 * 0.4 * 1.5 * closing / (x * radius); }
+
+/// Test 6: a spinning ball of aluminium alloy comes straight down.
+Slip on_plane(const Setting& s, double x) {
+  const double spin = spin_for(x);
+  ModelRun run = trial(s,
+                       on_rigid(s, "friction: 0.4, restitution: 0.5", 2700, 7e10, 0.33) +
+                           fmt::format("elements:\n  - {{packing: list, material: ball, shape: {{sphere: {}}}, items: "
+                                       "[{{id: 1, at: [0, 0, {}], velocity: [0, 0, {}], angular_velocity: [0, {:.17g}, "
+                                       "0]}}]}}\ntime: {{dt: 1e-3, steps: 1}}\n",
+                                       radius, 1.005 * radius, -closing, spin),
+                       step);
+  run_until(run, 0.015);
+  return {-radius * spin, run.velocity(1).x() - radius * run.spin(1).y()};
+}
+
+/// Test 8: it meets a ball of five times the size and a thousand times the density.
+Slip on_big_ball(const Setting& s, double x) {
+  const double spin = spin_for(x), big = 5 * radius;
+  const std::string hertz = s.springs() ? ", young: 7e10, poisson: 0.33" : "";
+  ModelRun run = trial(
+      s,
+      weightless + "materials: {ball: {density: 2700, friction: 0.4, restitution: 0.5" + hertz +
+          fmt::format("}}}}\nelements:\n  - {{packing: list, shape: {{sphere: {}}}, items: [{{id: 1, at: [{}, 0, 0], "
+                      "velocity: [{}, 0, 0], angular_velocity: [0, 0, {:.17g}]}}, {{id: 2, at: [{}, 0, 0], shape: "
+                      "{{sphere: {}}}, mass: {:.17g}}}]}}\ntime: {{dt: 1e-3, steps: 1}}\n",
+                      radius, -1.005 * radius, closing, spin, big, big,
+                      2.7e6 * 4 / 3 * std::numbers::pi * big * big * big),
+      step);
+  run_until(run, 0.015);
+  return {radius * spin, run.velocity(1).y() + radius * run.spin(1).z() - run.velocity(2).y() + big * run.spin(2).z()};
+}
+
+using Meeting = Slip (*)(const Setting&, double);
+
+/// Of the slip before.
+template <Meeting meet>
+double slides(const Setting& s) {
+  double most = 0;
+  for (const double x : {0.187, 0.358, 0.551, 0.765}) most = std::max(most, std::abs(meet(s, x).turned() - (x - 1)));
+  return most;
+}
+
+template <Meeting meet>
+double sticks(const Setting& s) {
+  double most = 0;
+  for (const double x : {1.5, 3.0, 10.0}) most = std::max(most, std::abs(meet(s, x).turned()));
+  return most;
+}
+
+/// The paper's curve for aluminium alloy.
+constexpr Point alloy[] = {{1.2139, 0.096}, {1.492, 0.111}, {2.5187, 0.006}, {4.508, -0.139}, {11.909, -0.259}};
+
+double swings_back(const Setting& s) {
+  double most = 0;
+  for (const Point& p : alloy) most = std::max(most, std::abs(on_plane(s, p.at).turned() - p.expected));
+  return most;
+}
+
+}  // namespace
+
+std::vector<Case> chung_ooi() {
+  return {
+      {"T3 glancing a plane", "Chung & Ooi (2011) test 4, 40° to 80°: v_t'/v_t and spin", plane_glance, 0.05, 0.01},
+      {"T3 opposite spins", "Chung & Ooi (2011) test 7: spin stays", opposite_spins, 1e-3, 1e-9},
+      {"T3 along a plane, slides", "Chung & Ooi test 5, v_t > 7 mu v_n: R w' = 5 mu v_n", small_ball_slides, 0.05,
+       0.01},
+      {"T3 along a plane, sticks", "Chung & Ooi test 5, v_t < 7 mu v_n, rigid: no slip is left", small_ball_sticks,
+       0.05, 0.05, needs_impulses},
+      {"T3 along a plane, micro-slip", "Chung & Ooi test 5, finite elements: R w', in 5 mu v_n", small_ball_swings_back,
+       0.05, 0.05, needs_springs},
+      {"T3 spin on a plane, slides", "Chung & Ooi test 6, X = 7/2 mu (1 + e) v_n / (w R) < 1: slip left 1 - X",
+       slides<on_plane>, 0.05, 0.01},
+      {"T3 spin on a plane, sticks", "Chung & Ooi test 6, X > 1, rigid: no slip is left", sticks<on_plane>, 0.05, 0.05,
+       needs_impulses},
+      {"T3 spin on a plane, micro-slip", "Chung & Ooi test 6, the paper's curve of the slip left, in slips before",
+       swings_back, 0.05, 0.05, needs_springs},
+      {"T3 spin on a big ball, slides", "Chung & Ooi test 8, 5 times as big: slip left 1 - X", slides<on_big_ball>,
+       0.05, 0.01},
+      {"T3 spin on a big ball, sticks", "Chung & Ooi test 8, X > 1, rigid: no slip is left", sticks<on_big_ball>, 0.05,
+       0.05, needs_impulses},
+  };
+}
+
+}  // namespace moraine::test
