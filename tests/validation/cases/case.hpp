@@ -46,6 +46,7 @@ std::vector<Case> two_bodies();
 std::vector<Case> chung_ooi();
 std::vector<Case> bonded();
 std::vector<Case> many_bodies();
+std::vector<Case> consistency();
 std::vector<Case> orders();
 
 /// Reads a scene for a setting: its engine, its cut into as many as `run.sub_models` says or else three at most, and
