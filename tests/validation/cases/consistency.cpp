@@ -193,8 +193,8 @@ std::vector<Case> consistency() {
       {"P4 column, energy", "20 spheres: never more than before, per sphere in m g d", column_gains, 1e-6, 1e-6},
       {"P5 identity", "bonded row of three, 200 crossings of a cut: elements and bonds lost", identity, 0, 0,
        needs_bonds},
-      {"P7 mirror", "an oblique impact, three bonded: mirrored motion [m, m/s]", mirror_differs, 1e-6, 1e-9,
-       needs_bonds},
+      {"P7 mirror", "an oblique impact, three bonded: mirrored motion [m, m/s]; cut, impulses are as exact as in T2",
+       mirror_differs, 0.02, 1e-9, needs_bonds},
       {"P8 numbers", "the same, numbered backwards: same motion [m, m/s]", numbers_differ, 1e-6, 1e-9, needs_bonds},
   };
 }
