@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How steep the bed in a turning drum is, and whether the drum's work is what holds the bed beside the axis."""
+import math
+
+from . import frames
+from .rows import Row, by_seed
+from .runs import Job
+
+TITLE = "C6 drum"
+RADIUS, GRAVITY, SETTLED = 12, 9.81, 30
+TICK = 1 / math.sqrt(GRAVITY)
+DENSITY = 6 / math.pi
+TURNS = {0.01: 1, 0.03: 1.5, 0.1: 2}  # by Froude number
+STEPS = {"soft_sphere": (("step", 0.9e-3),)}
+
+
+def jobs(seeds):
+    for engine, ways in (("impulse", ("whole", "cut")), ("soft_sphere", ("whole",))):
+        for how in ways:
+            for froude, turns in list(TURNS.items())[1:2] if engine == "soft_sphere" else TURNS.items():
+                for seed in range(1, seeds + 1):
+                    yield Job("drum", engine, how, seed, (("froude", froude), ("turns", turns), *STEPS.get(engine, ())))
+
+
+def angular_momentum(spheres):
+    """About the axis, y."""
+    return DENSITY * sum(s.volume * (s.z * s.velocity[0] - s.x * s.velocity[2] + 0.4 * s.radius**2 * s.spin[1]) for s in spheres)
+
+
+def beside(spheres):
+    """Torque of gravity about the axis."""
+    return DENSITY * GRAVITY * sum(s.volume * s.x for s in spheres)
+
+
+def surface_angle(spheres):
+    """Of the middle half of the surface; the drum lifts the side of lesser x [degrees]."""
+    top = frames.tops([s for s in spheres if math.hypot(s.x, s.z) < RADIUS - 0.8], 1)
+    points = [(i + 0.5, top[i]) for i in range(-RADIUS // 2, RADIUS // 2) if i in top]
+    return abs(math.degrees(math.atan(frames.line(points)[0])))
+
+
+def measure(folder, summary, settings):
+    """The balance holds over the whole turning: work / spin = change of angular momentum + integral of gravity's torque."""
+    begin, spin = SETTLED * TICK, math.sqrt(settings["froude"] / RADIUS) / TICK
+    times, torques, angles, momenta = [], [], [], []
+    for step, path in frames.paths(folder):
+        time = step * summary["dt"]
+        if time < begin - 1e-6:
+            continue
+        spheres = frames.read(path)
+        times.append(time)
+        torques.append(beside(spheres))
+        momenta.append(angular_momentum(spheres))
+        angles.append(surface_angle(spheres))
+    held = sum(0.5 * (a + b) * (t - s) for a, b, s, t in zip(torques, torques[1:], times, times[1:]))
+    late = angles[len(angles) // 2:]
+    return {"angle": sum(late) / len(late), "balance": summary["energy"]["work_of_boundaries"] / spin / (momenta[-1] - momenta[0] - held),
+            "frames": len(times)}
+
+
+def rows(results):
+    means = {}
+    for froude in TURNS:
+        own = by_seed({j: r for j, r in results.items() if dict(j.settings)["froude"] == froude}, lambda r: r["angle"])
+        row = Row(f"angle of the surface, Fr = {froude:g} [°]", "", "")
+        for key, values in own.items():
+            row.add(key, values, 0, 90)
+            means.setdefault(key, []).append(sum(values) / len(values))
+        yield row
+    row = Row("rise of the angle, the lesser of both [°]", "rises with Fr: Mellmann (2001)", "> 0")
+    for key, own in means.items():
+        if len(own) > 1:
+            row.add(key, [min(b - a for a, b in zip(own, own[1:]))], 0, 90)
+    yield row
+    row = Row("work of the drum / (weight beside the axis, spin-up), less 1", "0: angular momentum", "± 0.05, springs 0.02")
+    for key, values in by_seed(results, lambda r: r["balance"] - 1).items():
+        slack = 0.02 if key[0] == "soft_sphere" else 0.05
+        row.add(key, values, -slack, slack)
+    yield row
+
+
+CAUSES = []

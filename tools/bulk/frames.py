@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What frames of a run say: places and speeds of spheres, profiles, slopes."""
+import csv
+import glob
+import math
+import os
+
+
+class Sphere:
+    """Place, radius, velocity and spin; equal densities, so volumes stand for masses."""
+
+    def __init__(self, row):
+        self.x, self.y, self.z, self.radius = (float(row[k]) for k in ("x", "y", "z", "radius"))
+        self.velocity = tuple(float(row[k]) for k in ("vx", "vy", "vz"))
+        self.spin = tuple(float(row[k]) for k in ("wx", "wy", "wz"))
+
+    @property
+    def volume(self):
+        return 4 / 3 * math.pi * self.radius**3
+
+    def kinetic(self):
+        """Per density."""
+        squares = sum(v * v for v in self.velocity) + 0.4 * self.radius**2 * sum(w * w for w in self.spin)
+        return 0.5 * self.volume * squares
+
+
+def paths(folder):
+    """Of all frames, with their steps."""
+    found = glob.glob(os.path.join(folder, "frames", "elements_*.csv"))
+    return sorted((int(os.path.basename(p)[9:-4]), p) for p in found)
+
+
+def read(path):
+    with open(path) as f:
+        return [Sphere(row) for row in csv.DictReader(f)]
+
+
+def last(folder):
+    return read(paths(folder)[-1][1])
+
+
+def line(points):
+    """Least squares: slope and value at 0."""
+    n = len(points)
+    mx, my = sum(p[0] for p in points) / n, sum(p[1] for p in points) / n
+    slope = sum((x - mx) * (y - my) for x, y in points) / sum((x - mx) ** 2 for x, _ in points)
+    return slope, my - slope * mx
+
+
+def tops(spheres, pitch):
+    """Highest point of what lies in each slice of x, by the slice's number."""
+    out = {}
+    for s in spheres:
+        i = math.floor(s.x / pitch)
+        out[i] = max(out.get(i, -math.inf), s.z + s.radius)
+    return out
+
+
+def depths(spheres, pitch, width):
+    """Solid volume per area of the floor in each slice of x, by the slice's number."""
+    out = {}
+    for s in spheres:
+        i = math.floor(s.x / pitch)
+        out[i] = out.get(i, 0.0) + s.volume / (pitch * width)
+    return out

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How steep a heap is, on both sides, and whether it stays so."""
+import math
+
+from . import frames
+from .rows import ENGINES, Row, by_seed
+from .runs import Job
+
+TITLE = "C4 heap"
+D = 0.01
+STEPS = {"soft_sphere": (("step", 0.8e-3),)}
+ZHOU = "Zhou et al. (2002), glass beads: 27.4°"
+
+
+def jobs(seeds):
+    """The set-up of the paper is watched for long; other frictions only until they rest."""
+    for engine in ENGINES:
+        step = STEPS.get(engine, ())
+        for how in ("whole",) if engine == "soft_sphere" else ("whole", "cut"):
+            for seed in range(1, seeds + 1):
+                yield Job("heap", engine, how, seed, (("friction", 0.4), ("rest", 0 if engine == "soft_sphere" else 10), *step))
+                if engine == "soft_sphere":
+                    yield Job("heap", engine, how, seed, (("friction", 0.4), ("rolling", 0.05), ("rest", 10), *step))
+                if engine == "impulse":
+                    for friction in (0, 0.2, 0.8) if how == "whole" else (0,):
+                        yield Job("heap", engine, how, seed, (("friction", friction), ("rest", 0)))
+
+
+def slopes(spheres):
+    """Of both flanks, from 3 diameters beside the middle to 2 before the edges of the plate [degrees]."""
+    top = frames.tops([s for s in spheres if s.z > 0], D)
+    sides = ([(i + 0.5, top.get(i, 0) / D) for i in range(-13, -3)], [(i + 0.5, top.get(i, 0) / D) for i in range(3, 13)])
+    left, right = (math.degrees(math.atan(frames.line(points)[0])) for points in sides)
+    return left, -right
+
+
+def measure(folder, summary, settings):
+    found = frames.paths(folder)
+    left, right = slopes(frames.read(found[-1][1]))
+    watched = summary["time"] - settings["rest"]
+    early = next(path for step, path in found if step * summary["dt"] >= watched - 1e-9)
+    before = sum(slopes(frames.read(early))) / 2
+    return {"angle": (left + right) / 2, "sides": abs(left - right), "lost": before - (left + right) / 2}
+
+
+def chosen(results, **settings):
+    """Runs with these settings; rolling friction is 0 unless stated."""
+    wanted = {"rolling": 0, **settings}
+    return {j: r for j, r in results.items() if all(dict(j.settings).get(k, 0) == v for k, v in wanted.items())}
+
+
+def angle_row(name, answer, tolerance, results, low, high):
+    row = Row(name, answer, tolerance)
+    for key, values in by_seed(results, lambda r: r["angle"]).items():
+        row.add(key, values, low, high)
+    return row
+
+
+def rising(results):
+    """Least rise of the mean angle from one friction to the next."""
+    row = Row("rise from mu = 0.2 to 0.4, and to 0.8, the lesser [°]", "rises with friction", "> 0")
+    of = [by_seed(chosen(results, friction=f), lambda r: r["angle"]) for f in (0.2, 0.4, 0.8)]
+    for key in of[0].keys() & of[2].keys():
+        means = [sum(o[key]) / len(o[key]) for o in of]
+        row.add(key, [min(b - a for a, b in zip(means, means[1:]))], 1e-9, 90)
+    return row
+
+
+def rows(results):
+    yield angle_row("angle, mu = 0.4, rolling friction 0.05 [°]", ZHOU, "± 4°", chosen(results, friction=0.4, rolling=0.05), 23.4, 31.4)
+    plain = chosen(results, friction=0.4)
+    yield angle_row("angle, mu = 0.4, none [°]", ZHOU, "± 4°", plain, 23.4, 31.4)
+    for friction in (0, 0.2, 0.8):
+        ends = (-1, 1) if friction == 0 else (0, 90)
+        answer, tolerance = ("0", "± 1°") if friction == 0 else ("", "")
+        yield angle_row(f"angle, mu = {friction:g} [°]", answer, tolerance, chosen(results, friction=friction), *ends)
+    yield rising(results)
+    both = {j: r for j, r in results.items() if dict(j.settings)["rest"]}
+    for name, answer, value, bound in (("sides apart", "a heap is even", "sides", 4), ("lost in 10 s at rest", "a heap rests", "lost", 3)):
+        row = Row(f"{name} [°]", answer, f"{bound}°, springs 1°" if value == "lost" else f"{bound}°")
+        for key, values in by_seed(both, lambda r: r[value]).items():
+            row.add(key, values, -90, 1 if value == "lost" and key[0] == "soft_sphere" else bound)
+        yield row
+
+
+CAUSES = []

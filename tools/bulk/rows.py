@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Rows of the table: what should come out, and what did."""
+import statistics
+
+ENGINES = ("impulse", "bullet", "soft_sphere")
+HOW = ("whole", "cut")
+
+
+def by_seed(results, value):
+    """Values by engine and how, in order of seeds."""
+    out = {}
+    for job in sorted(results, key=lambda j: (j.seed, j.settings)):
+        out.setdefault((job.engine, job.how), []).append(value(results[job]))
+    return out
+
+
+class Row:
+    """One quantity of a case."""
+
+    def __init__(self, name, answer, tolerance):
+        self.name, self.answer, self.tolerance, self.values, self.bounds = name, answer, tolerance, {}, {}
+
+    def add(self, key, values, low, high):
+        self.values[key], self.bounds[key] = values, (low, high)
+
+    def missed(self, key):
+        low, high = self.bounds[key]
+        return not low <= statistics.mean(self.values[key]) <= high
+
+    def figure(self, key):
+        mean = statistics.mean(self.values[key])
+        text = number(mean)
+        if len(self.values[key]) > 1:
+            text += f" ± {number(statistics.stdev(self.values[key]), mean)}"
+        return f"**{text}**" if self.missed(key) else text
+
+    def cell(self, engine):
+        return " / ".join(self.figure((engine, how)) for how in HOW if (engine, how) in self.values)
+
+    def misses(self):
+        return [key for key in self.values if self.missed(key)]
+
+
+def number(value, beside=None):
+    """Three digits; a spread has as many decimals as the mean that it stands beside."""
+    size = abs(value if beside is None else beside)
+    if size < 1e-3 or size >= 1e4:
+        return f"{value:.1e}" if value else "0"
+    return f"{value:.{2 if size < 10 else 1}f}" if size >= 0.1 else f"{value:.4f}"

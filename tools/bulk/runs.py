@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs of the collective cases, several at once, and what is left of each: its figures."""
+import concurrent.futures
+import dataclasses
+import hashlib
+import importlib
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+SCENES = os.path.join(ROOT, "tests", "validation", "collective")
+# Restitution 0.5 of springs and dashpots compares with 0 of impulses in dense flow, see apps/scenes/dam.yaml.
+SETTINGS = {"soft_sphere": (("restitution", 0.5),)}
+SUB_MODELS = {"whole": 1, "cut": 3}
+
+
+@dataclasses.dataclass(frozen=True)
+class Job:
+    case: str       # the module of this package that has it; its scene has the same name
+    engine: str
+    how: str        # whole or cut
+    seed: int
+    settings: tuple = ()  # pairs of parameter and value
+
+    def options(self):
+        sets = [*self.settings, ("seed", self.seed), ("run.engine", self.engine), *SETTINGS.get(self.engine, ())]
+        return [w for k, v in sets for w in ("--set", f"{k}={v}")] + ["--sub-models", str(SUB_MODELS[self.how])]
+
+    def __str__(self):
+        return " ".join([self.case, self.engine, self.how, *(f"{k}={v}" for k, v in self.settings), f"seed={self.seed}"])
+
+
+def fingerprint(job, moraine):
+    """Of the run; how its figures are measured is not part of it."""
+    parts = [job.case.encode(), str(job.options()).encode()]
+    for path in (moraine, os.path.join(SCENES, job.case + ".yaml")):
+        with open(path, "rb") as f:
+            parts.append(hashlib.sha256(f.read()).digest())
+    return hashlib.sha256(b"".join(parts)).hexdigest()[:16]
+
+
+def figures(job, moraine):
+    """Runs the job and lets its case measure what the run left."""
+    with tempfile.TemporaryDirectory() as out:
+        done = subprocess.run([moraine, "run", os.path.join(SCENES, job.case + ".yaml"), "--out", out, "--quiet", "--threads", "1",
+                               *job.options()], capture_output=True, text=True)
+        if done.returncode:
+            raise RuntimeError(f"{job}: {done.stderr.strip()}")
+        with open(os.path.join(out, "summary.json")) as f:
+            summary = json.load(f)
+        result = importlib.import_module("bulk." + job.case).measure(out, summary, dict(job.settings))
+        return {**result, "elements": summary["elements"], "cpu_s": summary["loop_cpu_s"], "warnings": summary["warnings"]}
+
+
+def remembered(job, moraine, folder):
+    """As figures, unless the same job was done before."""
+    path = os.path.join(folder, fingerprint(job, moraine) + ".json")
+    if not os.path.exists(path):
+        result = figures(job, moraine)
+        with open(path + ".part", "w") as f:
+            json.dump(result, f)
+        os.replace(path + ".part", path)
+    with open(path) as f:
+        return json.load(f)
+
+
+def run_all(jobs, moraine, folder, at_once):
+    """Figures by job."""
+    os.makedirs(folder, exist_ok=True)
+    begun, results = time.monotonic(), {}
+    with concurrent.futures.ProcessPoolExecutor(at_once) as pool:
+        pending = {pool.submit(remembered, job, moraine, folder): job for job in jobs}
+        for done in concurrent.futures.as_completed(pending):
+            job = pending[done]
+            results[job] = done.result()
+            print(f"{len(results):4} of {len(jobs)}, {time.monotonic() - begun:5.0f} s: {job} ({results[job]['cpu_s']:.1f} s)",
+                  file=sys.stderr)
+    return results

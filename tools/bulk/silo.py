@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the floor of a silo carries, and what the walls do."""
+import math
+
+from . import frames
+from .rows import Row
+from .runs import Job
+
+TITLE = "C2 silo"
+WIDTH, WALL_FRICTION, GRAVITY = 10, 0.5, 9.81
+FILLS = (1, 2, 4)
+BETWEEN = (0.25, 0.75)  # how far the floor has sunk, diameters
+STEPS = {"soft_sphere": (("step", 0.9e-3),)}
+
+
+def jobs(seeds):
+    """Two runs each: what the floor does between two depths is the difference of its work."""
+    for engine, ways in (("impulse", ("whole", "cut")), ("soft_sphere", ("whole",))):
+        for how in ways:
+            for fill in FILLS:
+                for seed in range(1, seeds + 1):
+                    for sunk in BETWEEN:
+                        yield Job("silo", engine, how, seed, (("fill", fill), ("sunk", sunk), *STEPS.get(engine, ())))
+
+
+def measure(folder, summary, settings):
+    spheres = frames.last(folder)
+    weight = 6 / math.pi * sum(s.volume for s in spheres) * GRAVITY
+    top = sum(sorted(s.z + s.radius for s in spheres)[-30:]) / 30
+    return {"work": summary["energy"]["work_of_boundaries"], "weight": weight, "height": top + settings["sunk"],
+            "carried": summary["boundary_force"][2] / weight}
+
+
+def floors(results):
+    """By engine, how and seed: height of the fill [diameters], share of its weight on the floor, its weight, per fill."""
+    out = {}
+    for job, late in results.items():
+        settings = dict(job.settings)
+        if settings["sunk"] != BETWEEN[1]:
+            continue
+        early = next(r for j, r in results.items() if (j.engine, j.how, j.seed) == (job.engine, job.how, job.seed)
+                     and dict(j.settings) == {**settings, "sunk": BETWEEN[0]})
+        force = (early["work"] - late["work"]) / (BETWEEN[1] - BETWEEN[0])
+        out.setdefault((job.engine, job.how, job.seed), {})[settings["fill"]] = (late["height"], force / late["weight"], late["weight"])
+    return out
+
+
+def janssen(height, length):
+    """Share of the weight on the floor, by the length over which walls take the load."""
+    return length / height * (1 - math.exp(-height / length))
+
+
+def fitted_length(shares):
+    """Least squares of the floor's force over all fills, by trying."""
+    def error(length):
+        return sum((h * (share - janssen(h, length))) ** 2 for h, share, _ in shares.values())
+    return min((0.01 * n for n in range(200, 4000)), key=error)
+
+
+def row_of(name, answer, tolerance, own, value, low, high):
+    row, values = Row(name, answer, tolerance), {}
+    for (engine, how, _), shares in sorted(own.items()):
+        values.setdefault((engine, how), []).append(value(shares))
+    for key, each in values.items():
+        row.add(key, each, low, high)
+    return row
+
+
+def rows(results):
+    own = floors(results)
+    for fill in FILLS:
+        yield row_of(f"floor's share of the weight, fill of {fill} widths", "", "", own, lambda s: s[fill][1], 0, 1)
+    yield row_of("pressure at 4 over that at 2 widths", "saturates: Janssen (1895)", "< 1.15", own,
+                 lambda s: s[4][1] * s[4][2] / (s[2][1] * s[2][2]), 0, 1.15)
+    yield row_of("K = width / (4 mu L), L fitted to all fills", "0.4 to 0.8", "", own,
+                 lambda s: WIDTH / (4 * WALL_FRICTION * fitted_length(s)), 0.4, 0.8)
+    row, carried = Row("floor and walls / weight, less 1", "0", "± 0.03, springs 0.005"), {}
+    for job, r in results.items():
+        carried.setdefault((job.engine, job.how), []).append(r["carried"] - 1)
+    for key, each in carried.items():
+        slack = 0.005 if key[0] == "soft_sphere" else 0.03
+        row.add(key, each, -slack, slack)
+    yield row
+
+
+CAUSES = []

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How fast a silo runs out through a slot, and how that grows with the slot."""
+import math
+
+from . import frames
+from .rows import Row, by_seed
+from .runs import Job
+
+TITLE = "C3 slot"
+SLOTS = (6, 8, 10)
+DEPTH, SETTLED, TICK = 4, 30, 1 / math.sqrt(9.81)
+BEGIN, WINDOW = 4, 4       # ticks after the flap goes; from when, and for how long the rate is measured
+EMPTY_ANNULUS = 1.4        # k
+STEPS = {"soft_sphere": (("step", 0.9e-3),)}
+
+
+def jobs(seeds):
+    for engine, ways in (("impulse", ("whole", "cut")), ("soft_sphere", ("whole",))):
+        for how in ways:
+            for slot in SLOTS:
+                for seed in range(1, seeds + 1):
+                    yield Job("slot", engine, how, seed, (("slot", slot), ("flowing", BEGIN + 2 * WINDOW + 1), *STEPS.get(engine, ())))
+
+
+def measure(folder, summary, settings):
+    """Rates are volumes per tick and diameter of depth, in two windows; also the solid fraction of the fill."""
+    passed, solid = [], 0
+    for step, path in frames.paths(folder):
+        ticks = step * summary["dt"] / TICK - SETTLED
+        if ticks < BEGIN - 0.1:
+            continue
+        spheres = frames.read(path)
+        solid = solid or fill_fraction(spheres)
+        passed.append((ticks, sum(s.volume for s in spheres if s.z < -1) / DEPTH))
+    early = [p for p in passed if BEGIN <= p[0] <= BEGIN + WINDOW + 0.1]
+    late = [p for p in passed if BEGIN + WINDOW <= p[0] + 0.1 and p[0] <= BEGIN + 2 * WINDOW + 0.1]
+    return {"early": frames.line(early)[0], "late": frames.line(late)[0], "solid": solid}
+
+
+def fill_fraction(spheres, low=3, high=15):
+    """Of a part of the fill beside the slot."""
+    inside = [s for s in spheres if low <= s.z <= high and s.x < 12]
+    return sum(s.volume for s in inside) / (12 * DEPTH * (high - low))
+
+
+def rate(result):
+    return 0.5 * (result["early"] + result["late"])
+
+
+def of_slot(results, slot):
+    return {j: r for j, r in results.items() if dict(j.settings)["slot"] == slot}
+
+
+def rows(results):
+    rates = {slot: by_seed(of_slot(results, slot), rate) for slot in SLOTS}
+    solids = {slot: by_seed(of_slot(results, slot), lambda r: r["solid"]) for slot in SLOTS}
+    row = Row("exponent of the rate against slot - 1.4 d", "3/2: Beverloo et al. (1961), Choi et al. (2005)", "± 0.25, springs 0.1")
+    factor = Row("C of C phi sqrt(g) (slot - 1.4 d)^(3/2)", "", "")
+    for key in rates[SLOTS[0]]:
+        fits = [frames.line([(math.log(s - EMPTY_ANNULUS), math.log(rates[s][key][n])) for s in SLOTS])[0]
+                for n in range(len(rates[SLOTS[0]][key]))]
+        slack = 0.1 if key[0] == "soft_sphere" else 0.25
+        row.add(key, fits, 1.5 - slack, 1.5 + slack)
+        factor.add(key, [sum(rates[s][key][n] / solids[s][key][n] / (s - EMPTY_ANNULUS) ** 1.5 for s in SLOTS) / len(SLOTS)
+                         for n in range(len(fits))], 0, 9)
+    yield row
+    yield factor
+    steady = Row("rate of the second half / of the first, all slots", "1: not the fill decides", "± 0.03")
+    for key, values in by_seed(results, lambda r: r["late"] / r["early"]).items():
+        steady.add(key, values, 0.97, 1.03)
+    yield steady
+
+
+CAUSES = []

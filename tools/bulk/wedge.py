@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whether a wedge that is pushed keeps its slope."""
+import math
+
+from . import frames
+from .rows import Row, by_seed
+from .runs import Job
+
+TITLE = "C7 wedge"
+SETTLED, TICK = 40, 1 / math.sqrt(9.81)  # when the wall begins, in ticks
+STEPS = {"soft_sphere": (("step", 0.9e-3),)}
+
+
+def jobs(seeds):
+    for engine, ways in (("impulse", ("whole", "cut")), ("soft_sphere", ("whole",))):
+        for how in ways:
+            for rough in (0, 1):
+                for seed in range(1, seeds + 1):
+                    yield Job("wedge", engine, how, seed, (("rough", rough), *STEPS.get(engine, ())))
+
+
+def slope(spheres, wall):
+    """Of the surface, from where it is two diameters high to two diameters before the wall [degrees]."""
+    top = frames.tops([s for s in spheres if s.x < wall], 1)
+    points = [(i + 0.5, top[i]) for i in sorted(top) if i + 1 <= wall - 2]
+    begin = next(n for n, p in enumerate(points) if all(q[1] > 2 for q in points[n:]))
+    return math.degrees(math.atan(frames.line(points[begin:])[0]))
+
+
+def measure(folder, summary, settings):
+    found = frames.paths(folder)
+    before = next(path for step, path in found if step * summary["dt"] >= SETTLED * TICK - 1e-6)
+    start, end = frames.read(before), frames.read(found[-1][1])
+    moved = sum(s.x for s in start) / len(start) - sum(s.x for s in end) / len(end)
+    return {"before": slope(start, 40), "after": slope(end, 36), "moved": moved}
+
+
+def gained(result):
+    return result["after"] - result["before"]
+
+
+def rows(results):
+    flat, rough = ({j: r for j, r in results.items() if dict(j.settings)["rough"] == n} for n in (0, 1))
+    for name, answer, tolerance, own, value, low, high in (
+            ("slope before [°]", "", "", flat, lambda r: r["before"], 0, 90),
+            ("slope gained in 4 diameters [°]", "0: Buiter et al. (2016)", "± 1°", flat, gained, -1, 1),
+            ("way of its middle / way of the wall", "1: it slides as a whole", "± 0.15", flat, lambda r: r["moved"] / 4, 0.85, 1.15),
+            ("slope gained on a rough base [°]", "rises with the base's friction: Dahlen (1984)", "> 1°", rough, gained, 1, 90)):
+        row = Row(name, answer, tolerance)
+        for key, values in by_seed(own, value).items():
+            row.add(key, values, low, high)
+        yield row
+
+
+CAUSES = []
