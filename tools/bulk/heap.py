@@ -13,14 +13,14 @@ ZHOU = "Zhou et al. (2002), glass beads: 27.4°"
 
 
 def jobs(seeds):
-    """The set-up of the paper is watched for long; other frictions only until they rest."""
+    """With impulses the set-up of the paper is watched for long; all else only until it rests."""
     for engine in ENGINES:
         step = STEPS.get(engine, ())
         for how in ("whole",) if engine == "soft_sphere" else ("whole", "cut"):
             for seed in range(1, seeds + 1):
                 yield Job("heap", engine, how, seed, (("friction", 0.4), ("rest", 0 if engine == "soft_sphere" else 10), *step))
                 if engine == "soft_sphere":
-                    yield Job("heap", engine, how, seed, (("friction", 0.4), ("rolling", 0.05), ("rest", 10), *step))
+                    yield Job("heap", engine, how, seed, (("friction", 0.4), ("rolling", 0.05), ("rest", 0), *step))
                 if engine == "impulse":
                     for friction in (0, 0.2, 0.8) if how == "whole" else (0,):
                         yield Job("heap", engine, how, seed, (("friction", friction), ("rest", 0)))
@@ -75,12 +75,15 @@ def rows(results):
         answer, tolerance = ("0", "± 1°") if friction == 0 else ("", "")
         yield angle_row(f"angle, mu = {friction:g} [°]", answer, tolerance, chosen(results, friction=friction), *ends)
     yield rising(results)
-    both = {j: r for j, r in results.items() if dict(j.settings)["rest"]}
-    for name, answer, value, bound in (("sides apart", "a heap is even", "sides", 4), ("lost in 10 s at rest", "a heap rests", "lost", 3)):
-        row = Row(f"{name} [°]", answer, f"{bound}°, springs 1°" if value == "lost" else f"{bound}°")
-        for key, values in by_seed(both, lambda r: r[value]).items():
-            row.add(key, values, -90, 1 if value == "lost" and key[0] == "soft_sphere" else bound)
+    watched = {j: r for j, r in plain.items() if dict(j.settings)["rest"]}
+    for name, answer, value, bound, own in (("sides apart, mu = 0.4", "a heap is even", "sides", 4, plain),
+                                            ("lost in 10 s at rest", "a heap rests", "lost", 3, watched)):
+        row = Row(f"{name} [°]", answer, f"{bound}°")
+        for key, values in by_seed(own, lambda r: r[value]).items():
+            row.add(key, values, -90, bound)
         yield row
 
 
-CAUSES = []
+LEAK = ("2 % of what copies carry leaks in every substep (`coupling_leak` 0.98), so contacts at cuts slip: of seed 3 without leak 27.4° stand and "
+        "0.01° are lost, in steps half as long 25.7° stand")
+CAUSES = [("angle, mu = 0.4", "impulse", "cut", LEAK), ("lost", "impulse", "cut", LEAK)]

@@ -2,6 +2,7 @@
 """Runs of the collective cases, several at once, and what is left of each: its figures."""
 import concurrent.futures
 import dataclasses
+import glob
 import hashlib
 import importlib
 import json
@@ -35,11 +36,13 @@ class Job:
 
 
 def fingerprint(job, moraine):
-    """Of the run; how its figures are measured is not part of it."""
+    """Of the run: program, scene without its comments, meshes, options. How its figures are measured is not part of it."""
     parts = [job.case.encode(), str(job.options()).encode()]
-    for path in (moraine, os.path.join(SCENES, job.case + ".yaml")):
+    for path in (moraine, *sorted(glob.glob(os.path.join(SCENES, "*.obj")))):
         with open(path, "rb") as f:
             parts.append(hashlib.sha256(f.read()).digest())
+    with open(os.path.join(SCENES, job.case + ".yaml")) as f:
+        parts.append("\n".join(line.split("#")[0].rstrip() for line in f).encode())
     return hashlib.sha256(b"".join(parts)).hexdigest()[:16]
 
 

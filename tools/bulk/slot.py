@@ -55,7 +55,7 @@ def rows(results):
     rates = {slot: by_seed(of_slot(results, slot), rate) for slot in SLOTS}
     solids = {slot: by_seed(of_slot(results, slot), lambda r: r["solid"]) for slot in SLOTS}
     row = Row("exponent of the rate against slot - 1.4 d", "3/2: Beverloo et al. (1961), Choi et al. (2005)", "± 0.25, springs 0.1")
-    factor = Row("C of C phi sqrt(g) (slot - 1.4 d)^(3/2)", "", "")
+    factor = Row("C of C phi sqrt(g) (slot - 1.4 d)^(3/2)", "1.03: Nedderman (1992)", "")
     for key in rates[SLOTS[0]]:
         fits = [frames.line([(math.log(s - EMPTY_ANNULUS), math.log(rates[s][key][n])) for s in SLOTS])[0]
                 for n in range(len(rates[SLOTS[0]][key]))]
@@ -65,10 +65,17 @@ def rows(results):
                          for n in range(len(fits))], 0, 9)
     yield row
     yield factor
-    steady = Row("rate of the second half / of the first, all slots", "1: not the fill decides", "± 0.03")
-    for key, values in by_seed(results, lambda r: r["late"] / r["early"]).items():
-        steady.add(key, values, 0.97, 1.03)
+    steady = Row("what passes later / earlier, all slots together", "1: not the fill decides", "± 0.03")
+    late, early = (by_slots(results, window) for window in ("late", "early"))
+    for key in late:
+        steady.add(key, [a / b for a, b in zip(late[key], early[key])], 0.97, 1.03)
     yield steady
+
+
+def by_slots(results, window):
+    """Rates of all slots added up, by seed."""
+    own = [by_seed(of_slot(results, slot), lambda r: r[window]) for slot in SLOTS]
+    return {key: [sum(each) for each in zip(*(o[key] for o in own))] for key in own[0]}
 
 
 CAUSES = []
