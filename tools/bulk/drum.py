@@ -11,7 +11,7 @@ RADIUS, GRAVITY, SETTLED = 12, 9.81, 30
 TICK = 1 / math.sqrt(GRAVITY)
 DENSITY = 6 / math.pi
 TURNS = {0.01: 1, 0.03: 1.5, 0.1: 2}  # by Froude number
-STEPS = {"soft_sphere": (("step", 0.9e-3),)}
+STEPS = {"soft_sphere": (("step", 0.8e-3),)}
 
 
 def jobs(seeds):
@@ -45,7 +45,7 @@ def measure(folder, summary, settings):
     times, torques, angles, momenta = [], [], [], []
     for step, path in frames.paths(folder):
         time = step * summary["dt"]
-        if time < begin - 1e-6:
+        if time < begin - 0.5 * TICK:
             continue
         spheres = frames.read(path)
         times.append(time)

@@ -42,8 +42,8 @@ class Row:
 
 
 def number(value, beside=None):
-    """Three digits; a spread has as many decimals as the mean that it stands beside."""
+    """About three digits; a spread has as many decimals as the mean that it stands beside."""
     size = abs(value if beside is None else beside)
     if size < 1e-3 or size >= 1e4:
         return f"{value:.1e}" if value else "0"
-    return f"{value:.{2 if size < 10 else 1}f}" if size >= 0.1 else f"{value:.4f}"
+    return f"{value:.{3 if size < 1 else 2 if size < 10 else 1}f}" if size >= 0.1 else f"{value:.4f}"

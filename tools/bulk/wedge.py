@@ -3,20 +3,18 @@
 import math
 
 from . import frames
-from .rows import Row, by_seed
+from .rows import HOW, Row, by_seed
 from .runs import Job
 
 TITLE = "C7 wedge"
 SETTLED, TICK = 40, 1 / math.sqrt(9.81)  # when the wall begins, in ticks
-STEPS = {"soft_sphere": (("step", 0.9e-3),)}
 
 
 def jobs(seeds):
-    for engine, ways in (("impulse", ("whole", "cut")), ("soft_sphere", ("whole",))):
-        for how in ways:
-            for rough in (0, 1):
-                for seed in range(1, seeds + 1):
-                    yield Job("wedge", engine, how, seed, (("rough", rough), *STEPS.get(engine, ())))
+    for how in HOW:
+        for rough in (0, 1):
+            for seed in range(1, seeds + 1):
+                yield Job("wedge", "impulse", how, seed, (("rough", rough),))
 
 
 def slope(spheres, wall):
