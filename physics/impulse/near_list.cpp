@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/impulse/cells.hpp"
+#include "physics/native/room.hpp"
 
 namespace moraine::impulse {
 namespace {
@@ -31,20 +32,19 @@ void NearList::build(std::span<const Vec> position, std::span<const std::uint8_t
   size_ = 0;
   classify(position);
   tables_.clear();
+  native::extend(row_, position.size() + batch_lanes);
   for (SizeClass& c : classes_) {
-    c.sort(position, skin);
+    c.sort(position, skin, row_);
     if (!c.members.empty()) tables_.push_back(c.table);
   }
-  row_.resize(position.size() + batch_lanes);
   const NearTask task{skin_, tables_.data(), tables_.size()};
   for (std::uint32_t i = 0; i < position.size(); ++i)
     add_row(i, pair_kernels().near(task, position[i].data(), static_cast<std::int32_t>(i), row_.data()), passive);
 }
 
 void NearList::make_room(std::size_t pairs) {
-  if (lower_.size() >= pairs) return;
-  lower_.resize(pairs + pairs / 4);
-  higher_.resize(lower_.size());
+  native::extend(lower_, pairs);
+  native::extend(higher_, pairs);
 }
 
 void NearList::add_row(std::uint32_t body, std::size_t count, std::span<const std::uint8_t> passive) {
@@ -61,7 +61,7 @@ void NearList::add_row(std::uint32_t body, std::size_t count, std::span<const st
 void NearList::find_near(std::span<const Vec> position, std::span<const std::uint8_t> passive,
                          std::span<const Place> newcomers) {
   found_.clear();
-  row_.resize(position.size() + batch_lanes);
+  native::extend(row_, position.size() + batch_lanes);
   const NearTask task{skin_, tables_.data(), tables_.size()};
   for (const Place i : newcomers) {
     const std::size_t count = pair_kernels().near(task, position[i].data(), -1, row_.data());
@@ -69,6 +69,26 @@ void NearList::find_near(std::span<const Vec> position, std::span<const std::uin
       if (!passive[row_[k]]) found_.push_back({std::min(i, row_[k]), std::max(i, row_[k])});
   }
   std::sort(found_.begin(), found_.end());
+}
+
+void NearList::follow(std::span<const Place> moved) {
+  const std::size_t before = std::exchange(size_, 0);
+  for (std::size_t k = 0; k < before; ++k) {
+    const Pair now{moved[lower_[k]], moved[higher_[k]]};
+    if (now[0] != nowhere && now[1] != nowhere) put(size_++, now);
+  }
+  for (SizeClass& c : classes_) c.follow(moved);
+}
+
+/// Backwards, so that the list makes room for those that are found.
+void NearList::insert(std::span<const Vec> position, std::span<const std::uint8_t> passive,
+                      std::span<const Place> newcomers) {
+  find_near(position, passive, newcomers);
+  make_room(size_ + found_.size());
+  std::size_t old = size_, added = found_.size();
+  size_ += added;
+  for (std::size_t to = size_; added > 0; --to)
+    put(to - 1, old > 0 && pair(old - 1) > found_[added - 1] ? pair(--old) : found_[--added]);
 }
 
 void NearList::classify(std::span<const Vec> position) {
@@ -85,14 +105,14 @@ void NearList::classify(std::span<const Vec> position) {
     classes_[alike ? 0 : size_class(position[i].w(), smallest)].members.push_back(i);
 }
 
-void NearList::SizeClass::sort(std::span<const Vec> position, float skin) {
+void NearList::SizeClass::sort(std::span<const Vec> position, float skin, std::span<std::uint32_t> cell) {
   if (members.empty()) {
     body.clear();
     return;
   }
   measure(position, skin);
-  count(position);
-  fill(position);
+  count(position, cell);
+  fill(position, cell);
 }
 
 /// Those that left are nowhere near anything.
@@ -113,9 +133,8 @@ void NearList::SizeClass::measure(std::span<const Vec> position, float skin) {
   table.cells = cells_in(extent, size, 8.0 * static_cast<double>(members.size()) + 27);
 }
 
-void NearList::SizeClass::count(std::span<const Vec> position) {
+void NearList::SizeClass::count(std::span<const Vec> position, std::span<std::uint32_t> cell) {
   start.assign(cell_count(table.cells) + 1, 0);
-  cell.resize(members.size());
   for (std::size_t k = 0; k < members.size(); ++k) {
     cell[k] = cell_of(table.cells, position[members[k]]);
     ++start[cell[k]];
@@ -124,7 +143,7 @@ void NearList::SizeClass::count(std::span<const Vec> position) {
 }
 
 /// Backwards, from the ends of the cells to where they start.
-void NearList::SizeClass::fill(std::span<const Vec> position) {
+void NearList::SizeClass::fill(std::span<const Vec> position, std::span<const std::uint32_t> cell) {
   for (std::vector<float>* v : {&x, &y, &z, &radius}) v->resize(members.size() + batch_lanes);
   body.resize(members.size() + batch_lanes);
   for (std::size_t k = members.size(); k-- > 0;) {

@@ -20,15 +20,12 @@ class NearList {
   /// Lists pairs with a gap below `skin`; of two passive bodies none. `position`: radius in the last lane.
   void build(std::span<const Vec> position, std::span<const std::uint8_t> passive, float skin);
 
-  /// Bodies have new places, in the same order; drops pairs of those that are nowhere. Calls kept(old, now) for the
-  /// places of all other pairs, ascending. Cost: linear in pairs and bodies.
-  template <class Kept>
-  void follow(std::span<const Place> moved, Kept&& kept);
+  /// Bodies have new places, in the same order; drops pairs of those that are nowhere. Cost: linear in pairs and
+  /// bodies.
+  void follow(std::span<const Place> moved);
   /// Adds pairs of passive bodies that are new with those that are not passive and were there when the list was built.
-  /// Calls shifted(old, now) for the places of pairs that move, descending. Cost: as follow().
-  template <class Shifted>
-  void insert(std::span<const Vec> position, std::span<const std::uint8_t> passive, std::span<const Place> newcomers,
-              Shifted&& shifted);
+  /// Cost: as follow().
+  void insert(std::span<const Vec> position, std::span<const std::uint8_t> passive, std::span<const Place> newcomers);
 
   std::size_t size() const { return size_; }
   const std::uint32_t* lower() const { return lower_.data(); }
@@ -38,16 +35,16 @@ class NearList {
  private:
   struct SizeClass {
     std::vector<std::uint32_t> members;  ///< ascending, when built
-    std::vector<std::uint32_t> start, cell, body;
+    std::vector<std::uint32_t> start, body;
     std::vector<float> x, y, z, radius;  ///< in the order of cells; spare lanes at the end
     CellTable table;
-    void sort(std::span<const Vec> position, float skin);
+    void sort(std::span<const Vec> position, float skin, std::span<std::uint32_t> cell);
     void follow(std::span<const Place> moved);
 
    private:
     void measure(std::span<const Vec> position, float skin);
-    void count(std::span<const Vec> position);
-    void fill(std::span<const Vec> position);
+    void count(std::span<const Vec> position, std::span<std::uint32_t> cell);
+    void fill(std::span<const Vec> position, std::span<const std::uint32_t> cell);
   };
   void classify(std::span<const Vec> position);
   void add_row(std::uint32_t body, std::size_t count, std::span<const std::uint8_t> passive);
@@ -59,39 +56,10 @@ class NearList {
   std::vector<SizeClass> classes_;  ///< by rising size
   std::vector<CellTable> tables_;   ///< of those with members
   float skin_ = 0;
-  std::vector<std::uint32_t> row_;
+  std::vector<std::uint32_t> row_;  ///< near one body; before that the cells of bodies
   std::vector<Pair> found_;
   std::vector<std::uint32_t> lower_, higher_;  ///< the first size_ are in use
   std::size_t size_ = 0;
 };
-
-template <class Kept>
-void NearList::follow(std::span<const Place> moved, Kept&& kept) {
-  const std::size_t before = std::exchange(size_, 0);
-  for (std::size_t k = 0; k < before; ++k) {
-    const Pair now{moved[lower_[k]], moved[higher_[k]]};
-    if (now[0] == nowhere || now[1] == nowhere) continue;
-    put(size_, now);
-    kept(k, size_++);
-  }
-  for (SizeClass& c : classes_) c.follow(moved);
-}
-
-template <class Shifted>
-void NearList::insert(std::span<const Vec> position, std::span<const std::uint8_t> passive,
-                      std::span<const Place> newcomers, Shifted&& shifted) {
-  find_near(position, passive, newcomers);
-  make_room(size_ + found_.size());
-  std::size_t old = size_, added = found_.size();
-  size_ += added;
-  for (std::size_t to = size_; added > 0; --to) {
-    if (old > 0 && pair(old - 1) > found_[added - 1]) {
-      put(to - 1, pair(old - 1));
-      shifted(--old, to - 1);
-    } else {
-      put(to - 1, found_[--added]);
-    }
-  }
-}
 
 }  // namespace moraine::impulse

@@ -4,10 +4,13 @@
 
 #include <array>
 
+#include "physics/impulse/batch_store.hpp"
 #include "physics/impulse/bodies.hpp"
+#include "physics/impulse/carried_impulses.hpp"
 #include "physics/impulse/near_list.hpp"
 #include "physics/impulse/pair_kernels.hpp"
 #include "physics/impulse/step_rule.hpp"
+#include "physics/native/room.hpp"
 
 namespace moraine::impulse {
 
@@ -33,16 +36,16 @@ class PairContacts {
   /// Adds pairs of ghosts that have come since the list was made.
   void insert(const Bodies& bodies, std::span<const Place> ghosts);
   /// The next step lists anew.
-  void drop_list();
+  void drop_list() { listed_ = false; }
 
   /// Chooses all pairs that may meet in this step, from the velocities at its start. Cost: linear in listed pairs.
   void find(Bodies& bodies);
   /// Makes contacts of them and gives bodies the impulses of the step before.
   void start(Bodies& bodies);
-  void sweep(Bodies& bodies) { kernels_.sweep(task(bodies)); }
+  void sweep(Bodies& bodies) { solve(kernels_.sweep, bodies); }
   /// A sweep after bodies have moved by their velocities over the step. What contacts have after the last one they
   /// carry on to the next step.
-  void relax(Bodies& bodies, bool last);
+  void relax(Bodies& bodies) { solve(kernels_.relax, bodies); }
 
   std::size_t count() const { return meeting_.count; }
   /// Of the last step, ascending (a, b).
@@ -51,7 +54,7 @@ class PairContacts {
   void each_row(Visit&& visit) const {
     for (const std::uint32_t lane : lanes()) visit(row(lane));
   }
-  void restore(std::span<const PairRow> rows);
+  void restore(const Bodies& bodies, std::span<const PairRow> rows);
 
  private:
   /// A list that keeps its memory.
@@ -60,7 +63,7 @@ class PairContacts {
     std::size_t count = 0;
     /// Room for so many behind those that count.
     std::uint32_t* more(std::size_t room) {
-      if (at.size() < count + room) at.resize(count + count / 4 + room);
+      native::extend(at, count + room);
       return at.data() + count;
     }
     void add(std::uint32_t place) {
@@ -80,30 +83,25 @@ class PairContacts {
   std::vector<std::uint32_t> lanes() const;
   PairRow row(std::uint32_t lane) const;
   static BodyArrays arrays(Bodies& bodies);
-  PairTable table();
+  PairTable table() const;
   PairFeatures features() const { return {rule_.friction, rule_.restitution}; }
   PairLaws laws() const { return {rule_.constants().data(), rule_.materials()}; }
-  PairTask task(Bodies& bodies);
-  ElementId group_of(const Bodies& bodies, std::uint32_t pair) const;
-  void make_room(std::size_t full);
+  static ElementId group_of(const Bodies& bodies, Place lower);
+  void carry_on(ElementId group, std::span<const std::uint32_t> contacts);
   void choose_colours(std::span<const std::uint32_t> pairs, std::uint32_t group);
   void start_group(Bodies& bodies);
-  void follow_list(std::span<const Place> moved);
-  void follow_away(std::span<const Place> moved);
-  void put_away();
-  void take_out();
-  void spread_carried();
+  void fill(PairStartTask& task, std::span<const std::uint32_t> pairs);
+  void solve(void (*kernel)(const PairTask&), Bodies& bodies);
 
   const StepRule& rule_;
   NearList pairs_;
   bool listed_ = false;
-  std::vector<std::array<float, 4>> carried_;  ///< by place in the list, as in PairTable; zeros without contact
-  std::vector<NearList::Pair> away_;      ///< while there is no list: pairs that carry the first of these, ascending
-  Places meeting_, met_;                  ///< pairs in contact in this step and the one before, ascending
+  bool shifted_ = false;                  ///< pairs have other places in the list than in the step before
+  Places meeting_;                        ///< pairs in contact in this step, ascending
   std::vector<Taken> taken_;              ///< by body
   std::array<Places, colours> coloured_;  ///< pairs of each colour
-  std::vector<PairBatch> batches_;        ///< in the order in which they are solved; the first count are in use
-  std::size_t batch_count_ = 0;
+  BatchStore batches_;
+  CarriedImpulses carried_;
   const PairKernels& kernels_ = pair_kernels();
 };
 

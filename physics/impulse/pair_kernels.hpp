@@ -18,7 +18,7 @@ struct alignas(32) PairBatch {
   using Lanes = float[batch_lanes];
 
   std::uint32_t a[batch_lanes], b[batch_lanes];
-  std::uint32_t pair[batch_lanes];  ///< place in the list of pairs
+  std::uint32_t pair[batch_lanes];  ///< place in the list of pairs that there was in their step
   Lanes normal[3];                  ///< unit, towards a
   Lanes side[3];                    ///< tangential impulse of the step so far
   Lanes push;                       ///< normal impulse of the step so far, 0 or more
@@ -35,12 +35,18 @@ struct BodyArrays {
   const float* before = nullptr;          ///< from 4 i: velocity at the start of the step; read if anything rebounds
 };
 
-/// Pairs that may meet, and what their contacts carry on from the step before.
+/// Pairs that may meet.
 struct PairTable {
   const std::uint32_t *lower = nullptr, *higher = nullptr;
   std::size_t count = 0;
-  /// From 4 k: tangential impulse, normal impulse. After an impact: 0 and the negative speed of the rebound.
-  float* carried = nullptr;
+};
+
+/// What contacts of neighbouring pairs of a table carry on from one step to the next.
+struct PairCarried {
+  std::uint32_t first = 0, count = 0;  ///< pairs
+  /// From 4 (pair - first): tangential impulse, normal impulse. After an impact: 0 and the negative speed of the
+  /// rebound. A spare one at the end takes what other pairs carry.
+  float* of = nullptr;
 };
 
 /// What is left out if a scene does not use it.
@@ -70,6 +76,7 @@ struct PairStartTask {
   StepNumbers numbers;
   PairLaws laws;
   PairFeatures features;
+  PairCarried carried;                   ///< at least of these pairs
   const std::uint32_t* pairs = nullptr;  ///< places in the table; no two share a body
   std::size_t count = 0;
   PairBatch* batches = nullptr;  ///< room for all of them
@@ -82,7 +89,12 @@ struct PairTask {
   StepNumbers numbers;
   PairLaws laws;
   PairFeatures features;
-  float* carried = nullptr;  ///< PairTable; null where nothing is to be carried on
+};
+
+struct PairCarryTask {
+  const PairBatch* batches = nullptr;
+  std::size_t count = 0;
+  PairCarried to;
 };
 
 /// A box of cells.
@@ -134,8 +146,10 @@ struct PairKernels {
   void (*start)(const PairStartTask&);
   void (*sweep)(const PairTask&);
   /// A sweep after bodies have moved: what remains is to part with the right speed. Contacts that met within the step
-  /// do so along the line on which they touch: that keeps angular momentum. Writes what the contacts carry on.
+  /// do so along the line on which they touch: that keeps angular momentum.
   void (*relax)(const PairTask&);
+  /// Writes what contacts carry on after the last sweep of a step.
+  void (*carry)(const PairCarryTask&);
   /// Moves bodies by their velocities over h, and turns them. Turns of more than a revolution come out smaller.
   void (*advance)(const AdvanceTask&);
 };

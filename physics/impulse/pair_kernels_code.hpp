@@ -154,6 +154,19 @@ MORAINE_INLINE void prepare(PairBatch& batch, const PairStartTask& task, const L
   store(rebound, batch.rebound);
 }
 
+/// The places of eight pairs among those that carry something.
+struct CarriedPlaces {
+  std::uint32_t of[batch_lanes];
+};
+MORAINE_INLINE CarriedPlaces places(const PairCarried& carried, const PairBatch& batch) {
+  CarriedPlaces places;
+  for (std::size_t k = 0; k < batch_lanes; ++k) {
+    const std::uint32_t place = batch.pair[k] - carried.first;
+    places.of[k] = place < carried.count ? place : carried.count;
+  }
+  return places;
+}
+
 template <bool Friction, bool Restitution>
 void start_all(const PairStartTask& task) {
   for (std::size_t at = 0; at < task.count; at += batch_lanes) {
@@ -165,7 +178,7 @@ void start_all(const PairStartTask& task) {
     }
     const Lie l = lie(task.bodies, batch.a, batch.b);
     const Bodies8 m = read(batch, task.bodies.moving);
-    const Four carried = gather(task.table.carried, batch.pair, 4);
+    const Four carried = gather(task.carried.of, places(task.carried, batch).of, 4);
     prepare<Restitution>(batch, task, l, carried.w);
     Wide side{};
     if constexpr (Friction) side = carried.xyz - dot(carried.xyz, l.normal) * l.normal;
@@ -236,14 +249,14 @@ MORAINE_INLINE F8 speed_after(const PairBatch& batch) {
   return larger(rebound, -rebound);
 }
 
-MORAINE_INLINE void carry(const PairBatch& batch, float* carried) {
+MORAINE_INLINE void carry(const PairBatch& batch, const PairCarried& to) {
   const F8 rebound = speed_after(batch);
   const I8 goes_on = rebound <= all(0);
   const Wide side = load(batch.side);
   const F8 zero = all(0), push = load(batch.push);
   scatter({{choose(goes_on, side.x, zero), choose(goes_on, side.y, zero), choose(goes_on, side.z, zero)},
            choose(goes_on, push, choose(push > zero, -rebound, zero))},
-          carried, batch.pair, 4);
+          to.of, places(to, batch).of, 4);
 }
 
 template <bool Friction>
@@ -255,7 +268,6 @@ void relax_all(const PairTask& task) {
     const F8 approach = choose(carries, -speed_after(batch), choose(apart, all(1e10F), zero));
     turn(batch, carries & apart, task.bodies);
     correct<Friction>(batch, task, {all(1), zero}, approach);
-    if (task.carried != nullptr) carry(batch, task.carried);
   }
 }
 
@@ -269,9 +281,12 @@ void start(const PairStartTask& task) {
     task.features.restitution ? start_all<false, true>(task) : start_all<false, false>(task);
 }
 void sweep(const PairTask& task) { task.features.friction ? sweep_all<true>(task) : sweep_all<false>(task); }
+void carry(const PairCarryTask& task) {
+  for (std::size_t k = 0; k < task.count; ++k) carry(task.batches[k], task.to);
+}
 void relax(const PairTask& task) { task.features.friction ? relax_all<true>(task) : relax_all<false>(task); }
 
-constexpr PairKernels kernels_of_this_file{near, find, start, sweep, relax, advance};
+constexpr PairKernels kernels_of_this_file{near, find, start, sweep, relax, carry, advance};
 
 #undef MORAINE_INLINE
 

@@ -66,7 +66,7 @@ void ImpulseWorld::load(std::span<const std::byte> in) {
   get_all(r, bodies_.attitude);
   get_all(r, bodies_.ghost);
   get_all(r, bodies_.carries);
-  pairs_.restore(get_all<PairRow>(r));
+  pairs_.restore(bodies_, get_all<PairRow>(r));
   walls_.restore(get_all<WallRow>(r));
   bonds_.clear();
   for (const Bonds::Entry& e : get_all<Bonds::Entry>(r)) bonds_.add(e);

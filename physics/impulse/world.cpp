@@ -69,7 +69,7 @@ void ImpulseWorld::step(double t) {
   warm_start();
   for (int k = 0; k < rule_.sweeps; ++k) sweep();
   bodies_.advance(rule_.h, turns_);
-  for (int k = 1; k <= rule_.relaxing; ++k) relax(k == rule_.relaxing);
+  for (int k = 0; k < rule_.relaxing; ++k) relax();
   bonds_.keep_impulses();
   walls_.sum_impulse(bodies_);
 }
@@ -125,9 +125,9 @@ void ImpulseWorld::sweep() {
   walls_.sweep(bodies_.moving.data());
 }
 
-void ImpulseWorld::relax(bool last) {
+void ImpulseWorld::relax() {
   bonds_.sweep(bodies_.moving.data());
-  pairs_.relax(bodies_, last);
+  pairs_.relax(bodies_);
   walls_.relax();
   walls_.sweep(bodies_.moving.data());
 }

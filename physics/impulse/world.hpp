@@ -60,7 +60,7 @@ class ImpulseWorld final : public World {
   void gather();
   void warm_start();
   void sweep();
-  void relax(bool last);
+  void relax();
   Contact contact(const PairRow& row) const;
   Contact contact(const WallRow& row) const;
 

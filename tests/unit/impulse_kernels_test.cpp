@@ -55,7 +55,9 @@ struct Sample {
   }
 
   BodyArrays arrays() { return {moving.data(), position.data(), material.data(), carries.data(), before.data()}; }
-  PairTable table() { return {lower.data(), higher.data(), lower.size(), carried.data()}; }
+  PairTable table() { return {lower.data(), higher.data(), lower.size()}; }
+  /// Of all pairs but the first and the last.
+  PairCarried carried_on() { return {1, static_cast<std::uint32_t>(lower.size() - 2), carried.data()}; }
 
   void find(const PairKernels& kernels) {
     close.resize(lower.size() + batch_lanes);
@@ -69,12 +71,14 @@ struct Sample {
     meeting.resize(count);
   }
   void solve(const PairKernels& kernels) {
-    kernels.start({arrays(), table(), numbers, {law.data(), 2}, features, pairs.data(), pairs.size(), batches.data()});
-    const PairTask task{arrays(),      batches.data(),  (pairs.size() + batch_lanes - 1) / batch_lanes,
-                        numbers,       {law.data(), 2}, features,
-                        carried.data()};
+    const PairLaws laws{law.data(), 2};
+    const std::size_t count = (pairs.size() + batch_lanes - 1) / batch_lanes;
+    kernels.start(
+        {arrays(), table(), numbers, laws, features, carried_on(), pairs.data(), pairs.size(), batches.data()});
+    const PairTask task{arrays(), batches.data(), count, numbers, laws, features};
     for (int sweep = 0; sweep < 3; ++sweep) kernels.sweep(task);
     kernels.relax(task);
+    kernels.carry({batches.data(), count, carried_on()});
   }
 };
 
