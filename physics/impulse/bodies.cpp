@@ -2,17 +2,21 @@
 #include "physics/impulse/bodies.hpp"
 
 #include "physics/impulse/pair_kernels.hpp"
+#include "physics/native/room.hpp"
 
 namespace moraine::impulse {
+
+using native::append;
+
 Slot Bodies::add(const Body& body, const Shape& shape) {
   const Slot slot = roster.add(body.id);
   const auto radius = static_cast<float>(shape.sphere()->radius / units_.length);
-  position.push_back({0, 0, 0, radius});
-  moving.emplace_back();
-  material.push_back(body.material);
-  attitude.emplace_back();
-  ghost.push_back(body.role == Role::ghost);
-  carries.emplace_back();
+  append(position, Vec(0, 0, 0, radius));
+  append(moving, Moving{});
+  append(material, body.material);
+  append(attitude, Vec());
+  append(ghost, std::uint8_t{body.role == Role::ghost});
+  append(carries, std::uint8_t{0});
   set_mass(place(slot), body.mass, body.carries);
   set_state(place(slot), body.state);
   return slot;

@@ -3,18 +3,20 @@
 
 #include <algorithm>
 
+#include "physics/native/room.hpp"
+
 namespace moraine::native {
 
 Slot Roster::add(ElementId id) {
   if (free_.empty()) {
     free_.push_back(static_cast<Slot>(places_.size()));
-    places_.push_back(nowhere);
+    append(places_, nowhere);
   }
   const Slot slot = free_.back();
   free_.pop_back();
   places_[slot] = static_cast<Place>(size());
-  members_.push_back({id, slot});
-  removed_.push_back(0);
+  append(members_, {id, slot});
+  append(removed_, std::uint8_t{0});
   unsettled_ = true;
   return slot;
 }
@@ -29,12 +31,14 @@ void Roster::remove(Slot slot) {
 
 void Roster::settle() {
   arrivals_.clear();
+  make_room(arrivals_, size());
   for (Place p = 0; p < size(); ++p)
     if (!removed_[p]) arrivals_.push_back(p);
   const auto by_id = [&](Place a, Place b) { return id(a) < id(b); };
   // Those that were here before are in order.
   const auto first = std::lower_bound(arrivals_.begin(), arrivals_.end(), settled_);
   std::sort(first, arrivals_.end(), by_id);
+  make_room(order_, arrivals_.size());
   order_.resize(arrivals_.size());
   std::merge(arrivals_.begin(), first, first, arrivals_.end(), order_.begin(), by_id);
   moved_.assign(size(), nowhere);
