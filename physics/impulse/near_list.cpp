@@ -43,8 +43,8 @@ void NearList::build(std::span<const Vec> position, std::span<const std::uint8_t
 }
 
 void NearList::make_room(std::size_t pairs) {
-  native::extend(lower_, pairs);
-  native::extend(higher_, pairs);
+  native::extend(lower_, pairs + batch_lanes);
+  native::extend(higher_, pairs + batch_lanes);
 }
 
 void NearList::add_row(std::uint32_t body, std::size_t count, std::span<const std::uint8_t> passive) {

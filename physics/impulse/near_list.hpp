@@ -58,7 +58,7 @@ class NearList {
   float skin_ = 0;
   std::vector<std::uint32_t> row_;  ///< near one body; before that the cells of bodies
   std::vector<Pair> found_;
-  std::vector<std::uint32_t> lower_, higher_;  ///< the first size_ are in use
+  std::vector<std::uint32_t> lower_, higher_;  ///< the first size_ are in use, a spare batch follows
   std::size_t size_ = 0;
 };
 

@@ -126,22 +126,22 @@ void PairContacts::start(Bodies& bodies) {
   taken_.assign(bodies.size(), {});
   batches_.renew();
   const std::span<const std::uint32_t> all = meeting_.all();
-  const auto group = [&](std::size_t k) { return group_of(bodies, pairs_.lower()[all[k]]); };
-  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
-    const ElementId id = group(begin);
-    while (end < all.size() && group(end) == id) ++end;
-    const auto contacts = all.subspan(begin, end - begin);
-    carry_on(id, contacts);
-    choose_colours(contacts, static_cast<std::uint32_t>(begin) + 1);
+  for (auto begin = all.begin(), end = begin; begin < all.end(); begin = end) {
+    const ElementId group = group_of(bodies, pairs_.lower()[*begin]);
+    end = std::partition_point(begin, all.end(),
+                               [&](std::uint32_t k) { return group_of(bodies, pairs_.lower()[k]) == group; });
+    const std::span<const std::uint32_t> contacts(begin, end);
+    carry_on(group, contacts);
+    choose_colours(contacts, static_cast<std::uint32_t>(begin - all.begin()) + 1);
     start_group(bodies);
-    batches_.end_group(id);
+    batches_.end_group(group);
   }
   batches_.take_rest();
   shifted_ = false;
 }
 
 void PairContacts::carry_on(ElementId group, std::span<const std::uint32_t> contacts) {
-  carried_.begin(pairs_, contacts.front(), contacts.back());
+  carried_.begin(table(), contacts.front(), contacts.back());
   if (shifted_) carried_.index();
   batches_.take(group, [&](std::span<PairBatch> old) {
     if (shifted_) carried_.find_places(old);

@@ -35,7 +35,7 @@ struct BodyArrays {
   const float* before = nullptr;          ///< from 4 i: velocity at the start of the step; read if anything rebounds
 };
 
-/// Pairs that may meet.
+/// Pairs that may meet, ascending, with a spare batch behind the last.
 struct PairTable {
   const std::uint32_t *lower = nullptr, *higher = nullptr;
   std::size_t count = 0;
@@ -89,6 +89,19 @@ struct PairTask {
   StepNumbers numbers;
   PairLaws laws;
   PairFeatures features;
+};
+
+/// Where the pairs of neighbouring lower bodies begin in a table.
+struct PairRows {
+  std::uint32_t first = 0, count = 0;    ///< bodies
+  const std::uint32_t* begin = nullptr;  ///< by body, and the end of the last one's
+};
+
+struct PairPlaceTask {
+  PairTable table;
+  PairRows rows;
+  PairBatch* batches = nullptr;
+  std::size_t count = 0;
 };
 
 struct PairCarryTask {
@@ -148,6 +161,8 @@ struct PairKernels {
   /// A sweep after bodies have moved: what remains is to part with the right speed. Contacts that met within the step
   /// do so along the line on which they touch: that keeps angular momentum.
   void (*relax)(const PairTask&);
+  /// Gives contacts the places in the table of the pairs that have their bodies; those that have none get ~0.
+  void (*place)(const PairPlaceTask&);
   /// Writes what contacts carry on after the last sweep of a step.
   void (*carry)(const PairCarryTask&);
   /// Moves bodies by their velocities over h, and turns them. Turns of more than a revolution come out smaller.

@@ -249,16 +249,6 @@ MORAINE_INLINE F8 speed_after(const PairBatch& batch) {
   return larger(rebound, -rebound);
 }
 
-MORAINE_INLINE void carry(const PairBatch& batch, const PairCarried& to) {
-  const F8 rebound = speed_after(batch);
-  const I8 goes_on = rebound <= all(0);
-  const Wide side = load(batch.side);
-  const F8 zero = all(0), push = load(batch.push);
-  scatter({{choose(goes_on, side.x, zero), choose(goes_on, side.y, zero), choose(goes_on, side.z, zero)},
-           choose(goes_on, push, choose(push > zero, -rebound, zero))},
-          to.of, places(to, batch).of, 4);
-}
-
 template <bool Friction>
 void relax_all(const PairTask& task) {
   const F8 zero = all(0);
@@ -271,6 +261,43 @@ void relax_all(const PairTask& task) {
   }
 }
 
+// ---- from one step to the next
+
+MORAINE_INLINE std::uint32_t place_of(const PairTable& table, const PairRows& rows, std::uint32_t a, std::uint32_t b) {
+  const std::uint32_t row = a - rows.first;
+  if (row >= rows.count) return ~0U;
+  const auto wanted = static_cast<std::int32_t>(b);
+  for (std::uint32_t k = rows.begin[row]; k < rows.begin[row + 1]; k += batch_lanes) {
+    I8 higher;
+    __builtin_memcpy(&higher, table.higher + k, sizeof higher);
+    const unsigned found = bits(higher == wanted) & in_use(k, rows.begin[row + 1]);
+    if (found != 0) return k + static_cast<std::uint32_t>(__builtin_ctz(found));
+  }
+  return ~0U;
+}
+
+void place(const PairPlaceTask& task) {
+  for (std::size_t i = 0; i < task.count; ++i) {
+    PairBatch& batch = task.batches[i];
+    for (std::size_t k = 0; k < batch_lanes; ++k)
+      batch.pair[k] = place_of(task.table, task.rows, batch.a[k], batch.b[k]);
+  }
+}
+
+MORAINE_INLINE void carry(const PairBatch& batch, const PairCarried& to) {
+  const F8 rebound = speed_after(batch);
+  const I8 goes_on = rebound <= all(0);
+  const Wide side = load(batch.side);
+  const F8 zero = all(0), push = load(batch.push);
+  scatter({{choose(goes_on, side.x, zero), choose(goes_on, side.y, zero), choose(goes_on, side.z, zero)},
+           choose(goes_on, push, choose(push > zero, -rebound, zero))},
+          to.of, places(to, batch).of, 4);
+}
+
+void carry(const PairCarryTask& task) {
+  for (std::size_t k = 0; k < task.count; ++k) carry(task.batches[k], task.to);
+}
+
 std::size_t find(const PairFindTask& task) {
   return task.features.restitution ? find_meeting<true>(task) : find_meeting<false>(task);
 }
@@ -281,12 +308,9 @@ void start(const PairStartTask& task) {
     task.features.restitution ? start_all<false, true>(task) : start_all<false, false>(task);
 }
 void sweep(const PairTask& task) { task.features.friction ? sweep_all<true>(task) : sweep_all<false>(task); }
-void carry(const PairCarryTask& task) {
-  for (std::size_t k = 0; k < task.count; ++k) carry(task.batches[k], task.to);
-}
 void relax(const PairTask& task) { task.features.friction ? relax_all<true>(task) : relax_all<false>(task); }
 
-constexpr PairKernels kernels_of_this_file{near, find, start, sweep, relax, carry, advance};
+constexpr PairKernels kernels_of_this_file{near, find, start, sweep, relax, place, carry, advance};
 
 #undef MORAINE_INLINE
 
