@@ -102,7 +102,7 @@ void NearList::classify(std::span<const Vec> position) {
   classes_.resize(std::max(classes_.size(), size_class(largest, smallest) + 1));
   const bool alike = largest < 2 * smallest;
   for (std::uint32_t i = 0; i < position.size(); ++i)
-    classes_[alike ? 0 : size_class(position[i].w(), smallest)].members.push_back(i);
+    native::append(classes_[alike ? 0 : size_class(position[i].w(), smallest)].members, i);
 }
 
 void NearList::SizeClass::sort(std::span<const Vec> position, float skin, std::span<std::uint32_t> cell) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "physics/native/room.hpp"
+
 namespace moraine::impulse {
 namespace {
 
@@ -71,7 +73,7 @@ void WallContacts::add(const Bodies& bodies, WallRow row, const native::Nearest&
   if (!rule_.prepare(row, gap, closing, law, carries)) return;
   const float limit = take_up(row);
   if (carries) row.rebound = limit > rule_.numbers().threshold ? std::min(row.rebound, limit) : 0;
-  rows_.push_back(row);
+  native::append(rows_, row);
 }
 
 /// The impulses of the row of the step before whose normal is nearest. Returns how fast a shared ball may rebound,

@@ -8,7 +8,7 @@
 
 namespace moraine::native {
 
-/// Memory for so many values.
+/// Memory for so many values, and a sixteenth more if there was too little.
 template <class T>
 void make_room(std::vector<T>& values, std::size_t count) {
   if (values.capacity() < count) values.reserve(count + count / 16);
@@ -17,7 +17,7 @@ void make_room(std::vector<T>& values, std::size_t count) {
 /// As push_back().
 template <class T>
 void append(std::vector<T>& values, T value) {
-  make_room(values, values.size() + 1 + (values.size() < 16 ? 8 : 0));
+  make_room(values, values.size() + 8);
   values.push_back(std::move(value));
 }
 

@@ -122,6 +122,29 @@ TEST(ImpulseKernels, KeepMomentum) {
   }
 }
 
+/// Rows of 0 to 30 pairs; some bodies have none.
+TEST(ImpulseKernels, FindThePlacesOfPairs) {
+  std::vector<std::uint32_t> lower, higher, begin{0};
+  for (std::uint32_t a = 10; a < 41; ++a) {
+    for (std::uint32_t b = 0; b < (7 * a) % 31; ++b) lower.push_back(a), higher.push_back(100 + 2 * b);
+    begin.push_back(static_cast<std::uint32_t>(lower.size()));
+  }
+  const std::size_t count = lower.size();
+  higher.resize(count + batch_lanes, 101);
+  const auto place = [&](const PairKernels& kernels, std::uint32_t a, std::uint32_t b) {
+    PairBatch batch{};
+    std::fill_n(batch.a, batch_lanes, a);
+    std::fill_n(batch.b, batch_lanes, b);
+    kernels.place({{lower.data(), higher.data(), count}, {10, 31, begin.data()}, &batch, 1});
+    return batch.pair[batch_lanes - 1];
+  };
+  for (const PairKernels* kernels : {&portable_pair_kernels(), &pair_kernels()}) {
+    for (std::uint32_t k = 0; k < count; ++k) EXPECT_EQ(place(*kernels, lower[k], higher[k]), k);
+    for (const std::uint32_t a : {0U, 9U, 12U, 40U, 41U, nowhere}) EXPECT_EQ(place(*kernels, a, 101), ~0U);
+    EXPECT_EQ(place(*kernels, 12, nowhere), ~0U);
+  }
+}
+
 /// Against all pairs, for sizes of three classes.
 TEST(ImpulseNearList, HoldsThePairsWithinTheSkinInOrder) {
   std::mt19937 random(3);
