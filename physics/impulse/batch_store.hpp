@@ -2,6 +2,7 @@
 // The batches of a step, and those of the step before while the new ones are made.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "physics/impulse/cells.hpp"
 #include "physics/native/room.hpp"
