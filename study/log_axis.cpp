@@ -32,6 +32,8 @@ LogAxis::LogAxis(const std::vector<double>& values, double begin, double end)
   high_ += margin;
 }
 
+bool LogAxis::holds(double value) const { return value > 0 && std::log10(value) >= low_ && std::log10(value) <= high_; }
+
 double LogAxis::pixel(double value) const {
   const double at = value > 0 ? std::clamp(std::log10(value), low_, high_) : low_;
   return begin_ + (end_ - begin_) * (at - low_) / (high_ - low_);

@@ -13,6 +13,8 @@ class LogAxis {
   /// Values are positive.
   LogAxis(const std::vector<double>& values, double begin, double end);
 
+  /// Whether the axis reaches so far.
+  bool holds(double value) const;
   /// Values outside are moved to the nearer end.
   double pixel(double value) const;
   /// Values 1, 2 and 5 times powers of ten; of more than three decades the powers only.

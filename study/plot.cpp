@@ -143,10 +143,12 @@ class Plot {
 
   std::string wishes() const {
     std::string svg;
-    for (const double wish : r_.wishes)
+    for (const double wish : r_.wishes) {
+      if (!y_.holds(100 * wish)) continue;
       svg += line(left, y_.pixel(100 * wish), right, y_.pixel(100 * wish), faint, "stroke-dasharray=\"2 4\"") +
              text(right + 6, y_.pixel(100 * wish) + 4, fmt::format("{:g} %", 100 * wish),
                   fmt::format("fill=\"{}\"", faint));
+    }
     return svg;
   }
 

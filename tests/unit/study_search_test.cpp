@@ -143,6 +143,8 @@ TEST(LogAxis, PutsDecadesAtEqualDistances) {
   EXPECT_NEAR(axis.pixel(1), 50, 1e-9);
   EXPECT_NEAR(axis.pixel(10) - axis.pixel(1), axis.pixel(1) - axis.pixel(0.1), 1e-9);
   EXPECT_EQ(axis.pixel(1e-9), 0);
+  EXPECT_TRUE(axis.holds(3));
+  EXPECT_FALSE(axis.holds(0.01) || axis.holds(100) || axis.holds(0));
   EXPECT_EQ(axis.pixel(0), 0);
   EXPECT_EQ(axis.ticks(), (std::vector{0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0}));
 }
