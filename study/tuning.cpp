@@ -113,10 +113,10 @@ void confirm(Stage& stage, const std::vector<Setting>& candidates, const TuningO
       candidates.size(),
       [&](std::size_t i) { return judge(stage, stage.subject().resolve(candidates[i].choices), options, rows[i]); },
       [&] { return stage.reference_seeds(); });
-  for (std::size_t i = 0; i < rows.size() && verdicts[i]; ++i) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     if (verdicts[i] == Step::Kind::accept)
       tuned.found = rows[i];
-    else
+    else if (verdicts[i])
       (verdicts[i] == Step::Kind::reject ? tuned.too_bad : tuned.undecided).push_back(rows[i]);
   }
 }
