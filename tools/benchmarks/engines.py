@@ -88,14 +88,18 @@ def print_engines(rows, count, repeats):
 
 def wanted(arguments, names):
     """Those asked for, and the reference; all if none was."""
-    asked = set(arguments.engines.split(",")) if arguments.engines else None
-    return [n for n in names if asked is None or n in asked or n == REFERENCE]
+    asked = set(arguments.engines.split(",")) if arguments.engines else set(names)
+    if unknown := asked - set(names):
+        sys.exit(f"bench: no engine or code {', '.join(sorted(unknown))}, expected some of {', '.join(names)}")
+    return [n for n in names if n in asked or n == REFERENCE]
 
 
 def engines(arguments):
     count = arguments.count or 3_000
     alone = ["--sub-models", "1", "--threads", "1", "--scheduler", "serial"]
-    cases = [(e, alone + SETTINGS.get(e, [])) for e in wanted(arguments, listed_engines(arguments.moraine))]
+    own = listed_engines(arguments.moraine)
+    chosen = wanted(arguments, own + list(CODES))
+    cases = [(e, alone + SETTINGS.get(e, [])) for e in chosen if e in own]
     runs = {name: [] for name, _ in cases}
     rows = []
     for seed in range(1, arguments.repeats + 1):
@@ -106,7 +110,7 @@ def engines(arguments):
     for name, options in cases:
         little = run(arguments.moraine, "dam", ["--engine", name, "--set", "count=8", "--steps", "10"] + options)
         rows.append(engine_row(name, runs[name], bytes_per_element(runs[name], little, count)))
-    for code in wanted(arguments, CODES):
+    for code in chosen[len(cases):]:
         rows += peer_row(arguments, code, count)
     print_engines(rows, count, arguments.repeats)
     return rows
