@@ -19,10 +19,10 @@ def rows_of(build, choice, variable):
             return result.returncode, [line.rstrip("\n") for line in f]
 
 
-def write_tables(page, text):
-    """Replaces all that is below the mark."""
+def write_tables(page, text, begin=MARK, end=None):
+    """Replaces all that is below the mark, or from one mark to the other."""
     path = os.path.join(ROOT, "docs", page)
     with open(path) as f:
-        head = f.read().split(MARK)[0]
+        head, below = f.read().split(begin)
     with open(path, "w") as f:
-        f.write(head + MARK + "\n" + text)
+        f.write(head + begin + "\n" + text + (end + below.split(end)[1] if end else ""))

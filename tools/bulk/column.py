@@ -4,7 +4,7 @@ import math
 
 from . import frames
 from .runs import Job
-from .rows import Row, by_seed
+from .rows import Row, by_seed, with_settings
 
 TITLE = "C5 column"
 LENGTH, WIDTH = 20, 4
@@ -58,10 +58,9 @@ def lajeunesse(a):
 
 def rows(results):
     for a in ASPECTS["impulse"]:
-        own = {j: r for j, r in results.items() if dict(j.settings)["aspect"] == a}
         low, high = sorted((lube(a), lajeunesse(a)))
         row = Row(f"run-out, a = {a:g}", f"{low:.2g} to {high:.2g}: {PAPERS}", "± 25 %, springs 15 %")
-        for key, values in by_seed(own, lambda r: r["run_out"]).items():
+        for key, values in by_seed(with_settings(results, aspect=a), lambda r: r["run_out"]).items():
             slack = 0.15 if key[0] == "soft_sphere" else 0.25
             row.add(key, values, (1 - slack) * low, (1 + slack) * high)
         yield row
@@ -76,7 +75,7 @@ def rows(results):
 
 def exponent(results):
     row = Row("exponent of run-out, a = 2 to 4", "2/3: both", "± 0.15")
-    of = {a: by_seed({j: r for j, r in results.items() if dict(j.settings)["aspect"] == a}, lambda r: r["run_out"]) for a in (2, 4)}
+    of = {a: by_seed(with_settings(results, aspect=a), lambda r: r["run_out"]) for a in (2, 4)}
     for key in of[4]:
         row.add(key, [math.log2(far / near) for near, far in zip(of[2][key], of[4][key])], 2 / 3 - 0.15, 2 / 3 + 0.15)
     return row

@@ -3,7 +3,7 @@
 import math
 
 from . import frames
-from .rows import Row, by_seed
+from .rows import Row, by_seed, with_settings
 from .runs import Job
 
 TITLE = "C6 drum"
@@ -61,7 +61,7 @@ def measure(folder, summary, settings):
 def rows(results):
     means = {}
     for froude in TURNS:
-        own = by_seed({j: r for j, r in results.items() if dict(j.settings)["froude"] == froude}, lambda r: r["angle"])
+        own = by_seed(with_settings(results, froude=froude), lambda r: r["angle"])
         row = Row(f"angle of the surface, Fr = {froude:g} [°]", "", "")
         for key, values in own.items():
             row.add(key, values, 0, 90)

@@ -3,7 +3,7 @@
 import math
 
 from . import frames
-from .rows import Row, by_seed
+from .rows import Row, by_seed, row_of, with_settings
 from .runs import Job
 
 TITLE = "C4 heap"
@@ -43,23 +43,14 @@ def measure(folder, summary, settings):
     return {"angle": (left + right) / 2, "sides": abs(left - right), "lost": before - (left + right) / 2}
 
 
-def chosen(results, **settings):
-    """Runs with these settings; rolling friction is 0 unless stated."""
-    wanted = {"rolling": 0, **settings}
-    return {j: r for j, r in results.items() if all(dict(j.settings).get(k, 0) == v for k, v in wanted.items())}
-
-
-def angle_row(name, answer, tolerance, results, low, high):
-    row = Row(name, answer, tolerance)
-    for key, values in by_seed(results, lambda r: r["angle"]).items():
-        row.add(key, values, low, high)
-    return row
+def angle(result):
+    return result["angle"]
 
 
 def rising(results):
     """Least rise of the mean angle from one friction to the next."""
     row = Row("rise from mu = 0.2 to 0.4, and to 0.8, the lesser [°]", "rises with friction", "> 0")
-    of = [by_seed(chosen(results, friction=f), lambda r: r["angle"]) for f in (0.2, 0.4, 0.8)]
+    of = [by_seed(with_settings(results, friction=f, rolling=0), angle) for f in (0.2, 0.4, 0.8)]
     for key in of[0].keys() & of[2].keys():
         means = [sum(o[key]) / len(o[key]) for o in of]
         row.add(key, [min(b - a for a, b in zip(means, means[1:]))], 1e-9, 90)
@@ -67,21 +58,18 @@ def rising(results):
 
 
 def rows(results):
-    yield angle_row("angle, mu = 0.4, rolling friction 0.05 [°]", ZHOU, "± 4°", chosen(results, friction=0.4, rolling=0.05), 23.4, 31.4)
-    plain = chosen(results, friction=0.4)
-    yield angle_row("angle, mu = 0.4, none [°]", ZHOU, "± 4°", plain, 23.4, 31.4)
+    rolling, plain = (with_settings(results, friction=0.4, rolling=r) for r in (0.05, 0))
+    yield row_of("angle, mu = 0.4, rolling friction 0.05 [°]", ZHOU, "± 4°", rolling, angle, 23.4, 31.4)
+    yield row_of("angle, mu = 0.4, none [°]", ZHOU, "± 4°", plain, angle, 23.4, 31.4)
     for friction in (0, 0.2, 0.8):
         ends = (-1, 1) if friction == 0 else (0, 90)
         answer, tolerance = ("0", "± 1°") if friction == 0 else ("", "")
-        yield angle_row(f"angle, mu = {friction:g} [°]", answer, tolerance, chosen(results, friction=friction), *ends)
+        own = with_settings(results, friction=friction, rolling=0)
+        yield row_of(f"angle, mu = {friction:g} [°]", answer, tolerance, own, angle, *ends)
     yield rising(results)
     watched = {j: r for j, r in plain.items() if dict(j.settings)["rest"]}
-    for name, answer, value, bound, own in (("sides apart, mu = 0.4", "a heap is even", "sides", 4, plain),
-                                            ("lost in 10 s at rest", "a heap rests", "lost", 3, watched)):
-        row = Row(f"{name} [°]", answer, f"{bound}°")
-        for key, values in by_seed(own, lambda r: r[value]).items():
-            row.add(key, values, -90, bound)
-        yield row
+    yield row_of("sides apart, mu = 0.4 [°]", "a heap is even", "4°", plain, lambda r: r["sides"], -90, 4)
+    yield row_of("lost in 10 s at rest [°]", "a heap rests", "3°", watched, lambda r: r["lost"], -90, 3)
 
 
 LEAK = ("2 % of what copies carry leaks in every substep (`coupling_leak` 0.98), so contacts at cuts slip: without leak 27.6 ± 0.3° stand "

@@ -3,7 +3,7 @@
 import math
 
 from . import frames
-from .rows import Row, by_seed
+from .rows import Row, by_seed, row_of, with_settings
 from .runs import Job
 
 TITLE = "C8 packing"
@@ -114,16 +114,14 @@ ANSWERS = {
 
 def rows(results):
     for friction, (solid, s_low, s_high, contacts, c_low, c_high) in ANSWERS.items():
-        own = {j: r for j, r in results.items() if dict(j.settings)["friction"] == friction}
+        own = with_settings(results, friction=friction)
         row = Row(f"solid fraction, mu = {friction:g}", solid, "± 0.02, springs 0.01")
         for key, values in by_seed(own, lambda r: r["solid"]).items():
             slack = 0.01 if key[0] == "soft_sphere" else 0.02
             row.add(key, values, s_low - slack, s_high + slack)
         yield row
-        row = Row(f"contacts per sphere, mu = {friction:g}", contacts, "± 0.3")
-        for key, values in by_seed(own, lambda r: r["contacts"]).items():
-            row.add(key, values, c_low - 0.3, c_high + 0.3)
-        yield row
+        yield row_of(f"contacts per sphere, mu = {friction:g}", contacts, "± 0.3", own, lambda r: r["contacts"], c_low - 0.3,
+                     c_high + 0.3)
 
 
 CAUSES = [("contacts per sphere, mu = 10", "", "", "4 is the least that can carry; poured packings with friction keep more, Silbert et al. (2002), "

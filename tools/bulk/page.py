@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The table of docs/accuracy.md and the list of what is missed."""
-import os
+from reports import write_tables
 
 from .rows import ENGINES
-from .runs import ROOT
 
 BEGIN, END = "<!-- collective -->", "<!-- collective end -->"
 
@@ -40,9 +39,4 @@ def text(case_rows):
 
 
 def write(lines):
-    path = os.path.join(ROOT, "docs", "accuracy.md")
-    with open(path) as f:
-        page = f.read()
-    head, rest = page.split(BEGIN)
-    with open(path, "w") as f:
-        f.write(head + BEGIN + "\n\n" + "\n".join(lines).rstrip() + "\n\n" + END + rest.split(END)[1])
+    write_tables("accuracy.md", "\n" + "\n".join(lines).rstrip() + "\n\n", BEGIN, END)

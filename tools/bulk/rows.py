@@ -14,6 +14,19 @@ def by_seed(results, value):
     return out
 
 
+def with_settings(results, **wanted):
+    """Results of the jobs that state these; what a job does not state is 0."""
+    return {j: r for j, r in results.items() if all(dict(j.settings).get(k, 0) == v for k, v in wanted.items())}
+
+
+def row_of(name, answer, tolerance, results, value, low, high):
+    """A quantity that every run has, between the same bounds for all."""
+    row = Row(name, answer, tolerance)
+    for key, values in by_seed(results, value).items():
+        row.add(key, values, low, high)
+    return row
+
+
 class Row:
     """One quantity of a case."""
 

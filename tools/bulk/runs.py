@@ -12,7 +12,8 @@ import sys
 import tempfile
 import time
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from reports import ROOT
+
 SCENES = os.path.join(ROOT, "tests", "validation", "collective")
 # Restitution 0.5 of springs and dashpots compares with 0 of impulses in dense flow, see apps/scenes/dam.yaml.
 SETTINGS = {"soft_sphere": (("restitution", 0.5),)}

@@ -3,7 +3,7 @@
 import math
 
 from . import frames
-from .rows import HOW, Row
+from .rows import HOW, Row, row_of
 from .runs import Job
 
 TITLE = "C2 silo"
@@ -55,7 +55,7 @@ def fitted_length(shares):
     return min((0.01 * n for n in range(200, 4000)), key=error)
 
 
-def row_of(name, answer, tolerance, own, value, low, high):
+def floor_row(name, answer, tolerance, own, value, low, high):
     row, values = Row(name, answer, tolerance), {}
     for (engine, how, _), shares in sorted(own.items()):
         values.setdefault((engine, how), []).append(value(shares))
@@ -67,17 +67,12 @@ def row_of(name, answer, tolerance, own, value, low, high):
 def rows(results):
     own = floors(results)
     for fill in FILLS:
-        yield row_of(f"floor's share of the weight, fill of {fill} widths", "", "", own, lambda s: s[fill][1], 0, 1)
-    yield row_of("pressure at 4 over that at 2 widths", "saturates: Janssen (1895)", "< 1.15", own,
-                 lambda s: s[4][1] * s[4][2] / (s[2][1] * s[2][2]), 0, 1.15)
-    yield row_of("K = width / (4 mu L), L fitted to all fills", "0.4 to 0.8", "", own,
-                 lambda s: WIDTH / (4 * WALL_FRICTION * fitted_length(s)), 0.4, 0.8)
-    row, carried = Row("floor and walls / weight, less 1", "0", "± 0.03"), {}
-    for job, r in results.items():
-        carried.setdefault((job.engine, job.how), []).append(r["carried"] - 1)
-    for key, each in carried.items():
-        row.add(key, each, -0.03, 0.03)
-    yield row
+        yield floor_row(f"floor's share of the weight, fill of {fill} widths", "", "", own, lambda s: s[fill][1], 0, 1)
+    yield floor_row("pressure at 4 over that at 2 widths", "saturates: Janssen (1895)", "< 1.15", own,
+                    lambda s: s[4][1] * s[4][2] / (s[2][1] * s[2][2]), 0, 1.15)
+    yield floor_row("K = width / (4 mu L), L fitted to all fills", "0.4 to 0.8", "", own,
+                    lambda s: WIDTH / (4 * WALL_FRICTION * fitted_length(s)), 0.4, 0.8)
+    yield row_of("floor and walls / weight, less 1", "0", "± 0.03", results, lambda r: r["carried"] - 1, -0.03, 0.03)
 
 
 CAUSES = []

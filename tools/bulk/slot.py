@@ -3,7 +3,7 @@
 import math
 
 from . import frames
-from .rows import HOW, Row, by_seed
+from .rows import HOW, Row, by_seed, with_settings
 from .runs import Job
 
 TITLE = "C3 slot"
@@ -45,13 +45,9 @@ def mean_rate(result):
     return 0.5 * (result["early"] + result["late"])
 
 
-def of_slot(results, slot):
-    return {j: r for j, r in results.items() if dict(j.settings)["slot"] == slot}
-
-
 def rows(results):
-    rates = {slot: by_seed(of_slot(results, slot), mean_rate) for slot in SLOTS}
-    solids = {slot: by_seed(of_slot(results, slot), lambda r: r["solid"]) for slot in SLOTS}
+    rates = {slot: by_seed(with_settings(results, slot=slot), mean_rate) for slot in SLOTS}
+    solids = {slot: by_seed(with_settings(results, slot=slot), lambda r: r["solid"]) for slot in SLOTS}
     row = Row("exponent of the rate against slot - 1.4 d", "3/2: Beverloo et al. (1961), Choi et al. (2005)", "± 0.25")
     factor = Row("C of C phi sqrt(g) (slot - 1.4 d)^(3/2)", "1.03: Nedderman (1992)", "")
     for key in rates[SLOTS[0]]:
@@ -71,7 +67,7 @@ def rows(results):
 
 def by_slots(results, window):
     """Rates of all slots added up, by seed."""
-    own = [by_seed(of_slot(results, slot), lambda r: r[window]) for slot in SLOTS]
+    own = [by_seed(with_settings(results, slot=slot), lambda r: r[window]) for slot in SLOTS]
     return {key: [sum(each) for each in zip(*(o[key] for o in own))] for key in own[0]}
 
 

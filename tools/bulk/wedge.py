@@ -3,7 +3,7 @@
 import math
 
 from . import frames
-from .rows import HOW, Row, by_seed
+from .rows import HOW, row_of, with_settings
 from .runs import Job
 
 TITLE = "C7 wedge"
@@ -38,16 +38,11 @@ def gained(result):
 
 
 def rows(results):
-    flat, rough = ({j: r for j, r in results.items() if dict(j.settings)["rough"] == n} for n in (0, 1))
-    for name, answer, tolerance, own, value, low, high in (
-            ("slope before [°]", "", "", flat, lambda r: r["before"], 0, 90),
-            ("slope gained in 4 diameters [°]", "0: Buiter et al. (2016)", "± 1°", flat, gained, -1, 1),
-            ("way of its middle / way of the wall", "1: it slides as a whole", "", flat, lambda r: r["moved"] / 4, 0, 2),
-            ("slope gained on a rough base [°]", "rises with the base's friction: Dahlen (1984)", "> 1°", rough, gained, 1, 90)):
-        row = Row(name, answer, tolerance)
-        for key, values in by_seed(own, value).items():
-            row.add(key, values, low, high)
-        yield row
+    flat, rough = (with_settings(results, rough=n) for n in (0, 1))
+    yield row_of("slope before [°]", "", "", flat, lambda r: r["before"], 0, 90)
+    yield row_of("slope gained in 4 diameters [°]", "0: Buiter et al. (2016)", "± 1°", flat, gained, -1, 1)
+    yield row_of("way of its middle / way of the wall", "1: it slides as a whole", "", flat, lambda r: r["moved"] / 4, 0, 2)
+    yield row_of("slope gained on a rough base [°]", "rises with the base's friction: Dahlen (1984)", "> 1°", rough, gained, 1, 90)
 
 
 CAUSES = []
