@@ -122,13 +122,16 @@ def bullet(arguments):
     alone = ["--threads", "1", "--scheduler", "serial", "--engine", "bullet", "--set", f"count={count}", "--steps", str(steps)]
     ours = {"bullet, one world": ["--sub-models", "1"], "bullet, cut": ["--sub-models", "auto"]}
     runs = {name: [] for name in ("stock_bullet", *ours)}
+    stock = peer(arguments, "stock_bullet", "--count", "8", "--time", "0.1")
+    if stock is None:
+        sys.exit("bench: nothing to compare with")
     for repeat in range(arguments.repeats):
         print(f"  run {repeat + 1} of {arguments.repeats} ...", file=sys.stderr)
         runs["stock_bullet"].append(peer(arguments, "stock_bullet", "--count", str(count), "--time", repr(steps / 120)))
         for name, options in ours.items():
             runs[name].append(with_costs(run(arguments.moraine, "dam", alone + options)))
-    little = {name: run(arguments.moraine, "dam", ["--engine", "bullet", "--set", "count=8", "--steps", "10"]) for name in ours}
-    little["stock_bullet"] = peer(arguments, "stock_bullet", "--count", "8", "--time", "0.1")
+    own = run(arguments.moraine, "dam", ["--engine", "bullet", "--set", "count=8", "--steps", "10"])
+    little = {"stock_bullet": stock} | dict.fromkeys(ours, own)
     rows = [engine_row(name, of, bytes_per_element(of, little[name], count)) for name, of in runs.items()]
     print(f"dam of {count:,} spheres, {steps} steps, one thread; medians of {arguments.repeats}")
     print(f"{'':20} {'us/el-step':>10} {'ratio':>6} {'bytes/el':>9} {'ratio':>6}")
