@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bound update: where this sub-model's elements are now, which of them need a ghost where, and with what they start.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "ghosting/sub_model.hpp"
+#include "physics/errors.hpp"
 
 namespace moraine {
 namespace {
@@ -14,7 +18,10 @@ constexpr double drop_factor =
 
 void SubModel::bound_update(const runtime::Round& round, runtime::Port& port) {
   if (!(round.opening() && interrupted_)) {
-    if (!resting_) update_bounds();
+    if (!resting_) {
+      update_bounds();
+      check_motions(round);
+    }
     if (choose_ghosts() && resting_) wake();
   }
   if (!resting_) start_all_shared();
@@ -30,14 +37,39 @@ void SubModel::start_all_shared() {
   }
 }
 
+/// Of the members as they are now: all that the next substep asks of each of them, in one pass over them.
 void SubModel::update_bounds() {
+  const double ahead = context_.engine->force_time * context_.world.substep;
   bounds_ = {};
-  double speed2 = 0;
+  mass_moment_.setZero();
+  double speed2 = 0, turning = 0;
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    bounds_.add(motions_[i].position, radius_[i]);
-    speed2 = std::max(speed2, motions_[i].twist.linear.squaredNorm());
+    const BodyMotion& m = motions_[i];
+    bounds_.add(m.position, radius_[i]);
+    speed2 = std::max(speed2, m.twist.linear.squaredNorm());
+    mass_moment_ += mass_[i] * (m.position + ahead * m.twist.linear);
+    turning += m.twist.angular.sum();
   }
   max_speed_ = std::sqrt(speed2);
+  finite_ = std::isfinite(mass_moment_.sum() + turning);
+}
+
+/// Errors: InvalidStateError naming the element and the step when a number is not finite or a speed beyond the limit.
+void SubModel::check_motions(const runtime::Round& round) const {
+  const double limit = context_.speed_limit;
+  if (finite_ && max_speed_ <= limit) return;
+  const auto bad = std::find_if(motions_.begin(), motions_.end(), [&](const BodyMotion& m) {
+    return !std::isfinite(m.position.sum() + m.twist.angular.sum()) || !(m.twist.linear.norm() <= limit);
+  });
+  if (bad == motions_.end()) throw std::logic_error("motions are unsound, and none of them is");
+  const auto step = round.number / context_.scene->time.substeps;
+  const ElementId id = context_.scene->elements[members_[static_cast<std::size_t>(bad - motions_.begin())]].id;
+  if (const double speed = bad->twist.linear.norm(); std::isfinite(speed) && speed > limit)
+    throw InvalidStateError(
+        fmt::format("element {} runs away at step {}: speed {:.4g} m/s, the limit is {:.4g} m/s "
+                    "(run.max_speed); try a smaller dt or more substeps",
+                    id, step, speed, limit));
+  throw InvalidStateError(fmt::format("element {} has a state that is not a number at step {}", id, step));
 }
 
 /// Where the host told its border; the others' ghosts stay. Returns whether any have changed.

@@ -95,11 +95,26 @@ double Enclosure::Wall::beyond(const Vec3& point) const {
   return mesh ? box.distance(into(pose, point)) : offset - normal.dot(point);
 }
 
+/// Of a mesh, that the ball around the box is inside the mesh's box.
+bool Enclosure::Wall::holds(const Bounds& all) const {
+  const Vec3 middle = (all.min + all.max) / 2, half = (all.max - all.min) / 2;
+  if (!mesh) return beyond(middle) + normal.cwiseAbs().dot(half) <= 0;
+  const Vec3 room = Vec3::Constant(half.norm());
+  const Vec3 at = into(pose, middle);
+  return (at - room - box.min).minCoeff() >= 0 && (box.max - at - room).minCoeff() >= 0;
+}
+
 bool Enclosure::Wall::held(const Vec3& start) const {
   if (mesh) return inside(*mesh, into(boundary->pose, start));
   Wall first{.boundary = boundary};
   first.place(boundary->pose);
   return first.beyond(start) <= 0;
+}
+
+bool Enclosure::holds(const Bounds& box) const {
+  const Vec3 middle = (box.min + box.max) / 2, half = (box.max - box.min) / 2;
+  return below(middle) + down_.cwiseAbs().dot(half) <= 0 &&
+         std::all_of(walls_.begin(), walls_.end(), [&](const Wall& w) { return w.holds(box); });
 }
 
 double Enclosure::beyond(const Vec3& point, const Vec3& start) const {

@@ -21,6 +21,9 @@ class Enclosure {
   void move(double t);
   /// How far a point is past the boundaries that held `start` at t = 0 [m]; 0 or less if it is not.
   double beyond(const Vec3& point, const Vec3& start) const;
+  /// Whether no point of a box is past a boundary or below all of them. May say no where a point by point look says
+  /// yes.
+  bool holds(const Bounds& box) const;
   /// How far a point is below the lowest point of all boundaries and of all elements' starts [m]. Nothing is if there
   /// is no gravity, no boundary, or a plane that holds from below.
   double below(const Vec3& point) const { return down_.dot(point) - lowest_; }
@@ -37,6 +40,7 @@ class Enclosure {
 
     void place(const Pose& at);
     double beyond(const Vec3& point) const;
+    bool holds(const Bounds& all) const;
     bool held(const Vec3& start) const;
   };
   void find_lowest(double t);

@@ -108,6 +108,7 @@ CoupledModel::CoupledModel(const Scene& scene, runtime::Transport& transport) : 
   context_.driven = DrivenBoundaries(scene);
   context_.start = deepest_overlap(scene);
   for (const Shape& s : scene.shapes) context_.inner_radius.push_back(inner_radius(s.geometry));
+  if (!scene.shapes.empty()) context_.least_inner_radius = std::ranges::min(context_.inner_radius);
   context_.advised = context_.engine->advised_step(scene);
   context_.speed_limit = std::min(runaway_speed(scene), follower_speed(context_));
   check_engine(scene, *context_.engine);

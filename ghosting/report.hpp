@@ -15,7 +15,8 @@ struct Worst {
   double value = 0;
   ElementId element = 0;
 
-  void note(double other, ElementId id) {
+  /// The id is read only if it is wanted: it lies in the scene, far from motions.
+  void note(double other, const ElementId& id) {
     if (other > value) *this = {other, id};
   }
   void note(const Worst& other) { note(other.value, other.element); }

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Step: the engine advances this world alone; what its ghosts did is reported to their owners.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -24,34 +22,14 @@ void SubModel::step(const runtime::Round& round, runtime::Port& port) {
 }
 
 void SubModel::advance(const runtime::Round& round) {
-  open_account();
   world_->step(static_cast<double>(round.number) * context_.world.substep);
   newly_broken_.assign(world_->broken_bonds().begin(), world_->broken_bonds().end());
   note_broken(newly_broken_);
   read_motions();
   for (SharedElement& shared : shared_) shared.end = world_->state(slots_[shared.member]);  // while it is in the cache
-  check_motions(round);
 }
 
 void SubModel::read_motions() { world_->motions(slots_, motions_); }
-
-/// Errors: InvalidStateError naming the element and the step when a number is not finite or a speed beyond the limit.
-void SubModel::check_motions(const runtime::Round& round) const {
-  const double limit = context_.speed_limit * context_.speed_limit;
-  for (std::size_t i = 0; i < motions_.size(); ++i) {
-    const double speed2 = motions_[i].twist.linear.squaredNorm();
-    if (speed2 <= limit && std::isfinite(motions_[i].position.squaredNorm() + motions_[i].twist.angular.squaredNorm()))
-      continue;
-    const auto step = round.number / context_.scene->time.substeps;
-    const ElementId id = context_.scene->elements[members_[i]].id;
-    if (std::isfinite(speed2) && speed2 > limit)
-      throw InvalidStateError(
-          fmt::format("element {} runs away at step {}: speed {:.4g} m/s, the limit is {:.4g} m/s "
-                      "(run.max_speed); try a smaller dt or more substeps",
-                      id, step, std::sqrt(speed2), context_.speed_limit));
-    throw InvalidStateError(fmt::format("element {} has a state that is not a number at step {}", id, step));
-  }
-}
 
 void SubModel::note_broken(std::span<const std::uint32_t> bonds) {
   for (const std::uint32_t b : bonds) {

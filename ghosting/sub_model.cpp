@@ -42,12 +42,14 @@ SubModel::SubModel(const ModelContext& context, SubModelId id, std::vector<std::
       shared_index_(members_.size(), -1),
       world_(context.engine->make(context.world, origin_)) {
   for (auto* v : {&radius_, &mass_}) v->reserve(members_.size());
-  slots_.reserve(members_.size());
+  for (auto* v : {&slots_, &shape_}) v->reserve(members_.size());
   for (std::size_t i = 0; i < members_.size(); ++i) {
     slots_.push_back(world_->add(body(context_, members_[i], states[i])));
     radius_.push_back(context_.radius(members_[i]));
     mass_.push_back(context_.element_mass(members_[i]));
+    shape_.push_back(context_.scene->elements[members_[i]].shape);
     largest_radius_ = std::max(largest_radius_, radius_[i]);
+    total_mass_ += mass_[i];
   }
   inner_bonds_.assign(inner_bonds.begin(), inner_bonds.end());
   for (const std::uint32_t b : inner_bonds) {

@@ -33,6 +33,7 @@ struct ModelContext {
   StepLimit advised;                 ///< up to which the engine is at its best
   Enclosure enclosure;               ///< stands still during an epoch
   std::vector<double> inner_radius;  ///< by shape [m]
+  double least_inner_radius = 0;
   RestLimits rest;
   DrivenBoundaries driven;
   /// Ghosts show their owner's state and have no say.
@@ -140,7 +141,6 @@ class SubModel final : public runtime::SubModel {
   void step(const runtime::Round& round, runtime::Port& port);
   void advance(const runtime::Round& round);
   void read_motions();
-  void check_motions(const runtime::Round& round) const;
   void note_broken(std::span<const std::uint32_t> bonds);
   bool borders_due(const runtime::Round& round);
   void report(const HostLink& link, bool opening, StepMessage& message) const;
@@ -158,11 +158,11 @@ class SubModel final : public runtime::SubModel {
   double stretch_energy(std::uint32_t bond, const Vec3& between) const;
   double bond_energy() const;
   Extremes extremes() const;
-  void open_account();
   void close_account();
 
   void bound_update(const runtime::Round& round, runtime::Port& port);
   void update_bounds();
+  void check_motions(const runtime::Round& round) const;
   bool choose_ghosts();
   bool choose_hosted(OwnerLink& link);
   void find_touching(OwnerLink& link, std::vector<std::uint32_t>& out);
@@ -205,7 +205,9 @@ class SubModel final : public runtime::SubModel {
   Vec3 origin_;  ///< of the world's own numbers
   std::vector<std::uint32_t> members_;
   std::vector<Slot> slots_;
-  std::vector<double> radius_, mass_;       ///< by member: bounding radius [m], full mass [kg]
+  // By member, beside the scene's elements, which lie far apart
+  std::vector<double> radius_, mass_;       ///< bounding radius [m], full mass [kg]
+  std::vector<std::uint32_t> shape_;        ///< index into Scene::shapes
   std::vector<std::int32_t> shared_index_;  ///< by member; -1: not shared
   std::unique_ptr<World> world_;
 
@@ -220,11 +222,12 @@ class SubModel final : public runtime::SubModel {
   std::vector<BodyMotion> motions_;  ///< of members, canonical after the force mirror
   Bounds bounds_;
   double max_speed_ = 0;
+  bool finite_ = true;         ///< all numbers of motions_
   double largest_radius_ = 0;  ///< of the members [m]
   double approached_ = 0;      ///< how far a member and a neighbour's may have come closer since ghosts were chosen [m]
   Ledger ledger_;              ///< what was given; what members have is summed when asked for
-  double total_mass_ = 0;      ///< of the members, in this substep
-  Vec3 mass_moment_before_ = Vec3::Zero();  ///< when forces acted in this substep: sum of m x
+  double total_mass_ = 0;      ///< of the members
+  Vec3 mass_moment_ = Vec3::Zero();  ///< when forces act in the next substep: sum of m x
   double disagreement_ = 0;
   std::uint64_t disagreements_ = 0;
   std::uint64_t ghost_rounds_ = 0, rounds_ = 0;

@@ -8,29 +8,18 @@ namespace moraine {
 
 /// Angular momentum of spheres is I w; of other shapes the body-frame inertia is turned into the world frame.
 Vec3 SubModel::spin(std::size_t member) const {
-  const Shape& shape = context_.scene->shape_of(context_.scene->elements[members_[member]]);
+  const Shape& shape = context_.scene->shapes[shape_[member]];
   const Vec3& w = motions_[member].twist.angular;
   if (shape.sphere()) return mass_[member] * shape.inertia_per_mass.x() * w;
   const Quat q = state(member).pose.orientation;
   return q * Vec3(mass_[member] * shape.inertia_per_mass.cwiseProduct(q.conjugate() * w));
 }
 
-/// Where the members' masses are when forces act.
-void SubModel::open_account() {
-  const double ahead = context_.engine->force_time * context_.world.substep;
-  total_mass_ = 0;
-  mass_moment_before_.setZero();
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    total_mass_ += mass_[i];
-    mass_moment_before_ += mass_[i] * (motions_[i].position + ahead * motions_[i].twist.linear);
-  }
-}
-
 /// What gravity and boundaries gave in this substep.
 void SubModel::close_account() {
   if (members_.empty()) return;
   const Vec3 step = context_.scene->gravity * context_.world.substep;
-  const Impulse gravity{total_mass_ * step, mass_moment_before_.cross(step)};
+  const Impulse gravity{total_mass_ * step, mass_moment_.cross(step)};
   const Impulse walls = world_->boundary_impulse();
   ledger_.given += gravity;
   ledger_.given += walls;
@@ -84,16 +73,22 @@ Ledger SubModel::ledger() const {
   return now;
 }
 
+/// Boundaries are asked about single elements only if the box around all centres is not clear of them, and elements
+/// themselves are looked up only where they may be the worst so far.
 Extremes SubModel::extremes() const {
   Extremes out;
+  const Enclosure& enclosure = context_.enclosure;
+  const bool clear = !members_.empty() && enclosure.holds(bounds_.inflated(-std::ranges::min(radius_)));
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const Element& e = context_.scene->elements[members_[i]];
     const BodyMotion& m = motions_[i];
     const double speed = m.twist.linear.norm();
     out.speed.note(speed, e.id);
-    out.stride.note(speed * context_.world.substep / context_.inner_radius[e.shape], e.id);
-    out.beyond.note(context_.enclosure.beyond(m.position, e.state.pose.position) / radius_[i], e.id);
-    out.below.note(context_.enclosure.below(m.position) / radius_[i], e.id);
+    if (const double way = speed * context_.world.substep; way > out.stride.value * context_.least_inner_radius)
+      out.stride.note(way / context_.inner_radius[shape_[i]], e.id);
+    if (clear) continue;
+    out.beyond.note(enclosure.beyond(m.position, e.state.pose.position) / radius_[i], e.id);
+    out.below.note(enclosure.below(m.position) / radius_[i], e.id);
   }
   return out;
 }

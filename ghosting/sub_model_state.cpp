@@ -8,9 +8,9 @@ namespace moraine {
 template <class Io, class Self>
 void SubModel::fields(Io& s, Self& self) {
   moraine::fields::all(s, self.members_, self.slots_, self.shared_index_, self.host_links_, self.owner_links_,
-                       self.shared_, self.inner_bonds_, self.broken_, self.bounds_, self.max_speed_,
-                       self.largest_radius_, self.approached_, self.ledger_, self.disagreement_, self.disagreements_,
-                       self.ghost_rounds_, self.rounds_, self.radius_, self.mass_, self.resting_, self.still_rounds_,
+                       self.shared_, self.inner_bonds_, self.broken_, self.largest_radius_, self.total_mass_,
+                       self.approached_, self.ledger_, self.disagreement_, self.disagreements_, self.ghost_rounds_,
+                       self.rounds_, self.radius_, self.mass_, self.shape_, self.resting_, self.still_rounds_,
                        self.still_since_, self.at_rest_, self.rested_);
 }
 
@@ -35,6 +35,7 @@ void SubModel::load(std::span<const std::byte> in) {
   locate_hosted();
   read_motions();
   for (const SharedElement& s : shared_) motions_[s.member] = {s.state.pose.position, s.state.twist};
+  update_bounds();
 }
 
 }  // namespace moraine

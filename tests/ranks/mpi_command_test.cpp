@@ -60,7 +60,7 @@ TEST_F(Mpi, AnErrorIsSaidOnceAndEndsAllRanks) {
   const std::size_t first = ended.text.find("runs away at step");
   EXPECT_NE(first, std::string::npos) << ended.text;
   EXPECT_EQ(ended.text.find("runs away at step", first + 1), std::string::npos) << ended.text;
-  EXPECT_NE(ended.text.find("step of sub-model"), std::string::npos) << ended.text;
+  EXPECT_NE(ended.text.find("bound_update of sub-model"), std::string::npos) << ended.text;
 }
 
 TEST_F(Mpi, WrongInputEndsAllRanks) {
