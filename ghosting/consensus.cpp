@@ -7,7 +7,8 @@
 // so that a copy which was held back or pushed starts the next substep with the opposite. In the steady state s_c m d_c
 // is the load that copy carries for the others. The mean is exact for momentum (every contact exists in one world only)
 // and what the copies carry sums to zero. It is the scaled dual update of consensus ADMM (Boyd et al. 2011,
-// eq. 7.3-7.5) interleaved with the time steps, with a leak f < 1 that keeps it from gaining energy.
+// eq. 7.3-7.5) interleaved with the time steps, with a leak f < 1 that keeps it from gaining energy. The less a
+// world's contacts gain of themselves, the less has to leak, and the less cuts yield.
 //
 // A leak alone leaves v - v_c = (1 - f) d_c in the steady state: contacts and bonds at a cut are then loaded by copies
 // that drift, and overlap or stretch more than others. So what leaks is the part that has not lasted: D_c is a slow

@@ -33,7 +33,7 @@ Engine engine() {
           .supports = supports,
           .relative_cost = relative_cost,
           .make = make,
-          .coupling_leak = 0.98,
+          .coupling_leak = 0.995,
           .advised_step = impulse_step_advice};
 }
 
