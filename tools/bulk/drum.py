@@ -3,7 +3,7 @@
 import math
 
 from . import frames
-from .rows import Row, by_seed, with_settings
+from .rows import Row, by_seed, row_of, with_settings
 from .runs import Job
 
 TITLE = "C6 drum"
@@ -11,6 +11,7 @@ RADIUS, GRAVITY, SETTLED = 12, 9.81, 30
 TICK = 1 / math.sqrt(GRAVITY)
 DENSITY = 6 / math.pi
 TURNS = {0.01: 1, 0.03: 1.5, 0.1: 2}  # by Froude number
+CENTRIFUGES, AROUND = 3, 8            # a Froude number at which the innermost grains go round as well, and turns until all do
 STEPS = {"soft_sphere": (("step", 0.8e-3),)}
 
 
@@ -20,6 +21,9 @@ def jobs(seeds):
             for froude, turns in list(TURNS.items())[1:2] if engine == "soft_sphere" else TURNS.items():
                 for seed in range(1, seeds + 1):
                     yield Job("drum", engine, how, seed, (("froude", froude), ("turns", turns), *STEPS.get(engine, ())))
+            if engine == "impulse":
+                for seed in range(1, seeds + 1):
+                    yield Job("drum", engine, how, seed, (("froude", CENTRIFUGES), ("turns", AROUND)))
 
 
 def angular_momentum(spheres):
@@ -39,6 +43,12 @@ def surface_angle(spheres):
     return abs(math.degrees(math.atan(frames.line(points)[0])))
 
 
+def off_axis(spheres):
+    """Distance of the centre of mass from the axis [R]."""
+    mass = sum(s.volume for s in spheres)
+    return math.hypot(sum(s.volume * s.x for s in spheres), sum(s.volume * s.z for s in spheres)) / mass / RADIUS
+
+
 def measure(folder, summary, settings):
     """The balance holds over the whole turning: work / spin = change of angular momentum + integral of gravity's torque."""
     begin, spin = SETTLED * TICK, math.sqrt(settings["froude"] / RADIUS) / TICK
@@ -54,7 +64,7 @@ def measure(folder, summary, settings):
         angles.append(surface_angle(spheres))
     held = sum(0.5 * (a + b) * (t - s) for a, b, s, t in zip(torques, torques[1:], times, times[1:]))
     late = angles[len(angles) // 2:]
-    return {"angle": sum(late) / len(late), "balance": summary["energy"]["work_of_boundaries"] / spin / (momenta[-1] - momenta[0] - held),
+    return {"angle": sum(late) / len(late), "off_axis": off_axis(spheres), "balance": summary["energy"]["work_of_boundaries"] / spin / (momenta[-1] - momenta[0] - held),
             "frames": len(times)}
 
 
@@ -72,6 +82,8 @@ def rows(results):
         if len(own) > 1:
             row.add(key, [min(b - a for a, b in zip(own, own[1:]))], 0, 90)
     yield row
+    yield row_of("centre of mass beside the axis, Fr = 3 [R]", "0, all go round: Mellmann (2001)", "0.05",
+                 with_settings(results, froude=CENTRIFUGES), lambda r: r["off_axis"], 0, 0.05)
     row = Row("work of the drum / (weight beside the axis, spin-up), less 1", "0: angular momentum", "± 0.05, springs 0.02")
     for key, values in by_seed(results, lambda r: r["balance"] - 1).items():
         slack = 0.02 if key[0] == "soft_sphere" else 0.05

@@ -56,10 +56,10 @@ def tops(spheres, pitch):
     return out
 
 
-def depths(spheres, pitch, width):
-    """Solid volume per area of the floor in each slice of x, by the slice's number."""
+def depths(spheres, distance, area):
+    """Solid volume per area of the floor in each slice of one unit of distance, by the slice's number."""
     out = {}
     for s in spheres:
-        i = math.floor(s.x / pitch)
-        out[i] = out.get(i, 0.0) + s.volume / (pitch * width)
+        i = math.floor(distance(s))
+        out[i] = out.get(i, 0.0) + s.volume / area(i)
     return out

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A cylinder, of which a quarter stands between two smooth walls."""
+import math
+
+from .collapse import ROLLING, Collapse
+
+TITLE = "C5 cylinder"
+RADIUS = 16
+
+
+def lube(a):
+    return 1.24 * a if a < 1.7 else 1.6 * math.sqrt(a)
+
+
+def lajeunesse(a):
+    return 1.0 * a if a < 0.74 else 2.0 * math.sqrt(a)
+
+
+CYLINDER = Collapse("cylinder", RADIUS, {"impulse": (0.5, 1, 2, 4)}, {}, distance=lambda s: math.hypot(s.x, s.y),
+                    area=lambda i: math.pi / 4 * (2 * i + 1), settled=lambda a: 6 * math.sqrt(a * RADIUS / 9.81) + 4,
+                    laws=(lube, lajeunesse), papers="Lube et al. (2004), Lajeunesse et al. (2004)", power=1 / 2)
+jobs, measure, rows = CYLINDER.jobs, CYLINDER.measure, CYLINDER.rows
+
+CAUSES = [ROLLING]
