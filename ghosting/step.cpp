@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Step: the engine advances this world alone; what its ghosts did is reported to their owners.
 #include <algorithm>
-#include <cmath>
 
 #include "ghosting/sub_model.hpp"
-#include "physics/errors.hpp"
 
 namespace moraine {
 

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How steep a wedge is that grows before a wall."""
+import math
+
+from . import frames
+from .rows import HOW, Row, by_seed, with_settings
+from .runs import Job
+
+TITLE = "C7 taper"
+LENGTH, PUSHED, SETTLED, TICK = 150, 35, 20, 1 / math.sqrt(9.81)
+BASES = (0.1, 0.3, 0.6)        # frictions
+INNER = (20, 30)               # friction angles that spheres without rolling friction may have together [degrees]
+
+
+def jobs(seeds):
+    for how in HOW:
+        for base in BASES:
+            for seed in range(1, seeds + 1):
+                yield Job("taper", "impulse", how, seed, (("base", base),))
+
+
+def critical(inner, base):
+    """Slope of a cohesionless wedge on a level base, friction angles in degrees: Dahlen (1984), eq. 9 and 17."""
+    phi, phi_b = math.radians(inner), math.radians(min(base, inner))
+    psi_b = 0.5 * math.asin(math.sin(phi_b) / math.sin(phi)) - 0.5 * phi_b
+    low, high = 0.0, phi
+    while high - low > 1e-9:
+        a = 0.5 * (low + high)
+        beyond = a + 0.5 * math.asin(math.sin(a) / math.sin(phi)) - 0.5 * a > psi_b
+        low, high = (low, a) if beyond else (a, high)
+    return math.degrees(low)
+
+
+def measure(folder, summary, settings):
+    """The wedge begins where the surface is a diameter above the layer for good, and ends two diameters before the wall."""
+    found = frames.paths(folder)
+    before = next(path for step, path in found if step * summary["dt"] >= SETTLED * TICK - 1e-6)
+    wall = LENGTH - PUSHED
+    level = frames.tops(frames.read(before), 1)
+    layer = sum(level[i] for i in range(5, LENGTH - 20)) / (LENGTH - 25)
+    top = frames.tops([s for s in frames.read(found[-1][1]) if s.x < wall], 1)
+    points = [(i + 0.5, top[i]) for i in sorted(top) if i + 1 <= wall - 2]
+    begin = next(n for n in range(len(points)) if all(z > layer + 1 for _, z in points[n:]))
+    return {"slope": math.degrees(math.atan(frames.line(points[begin:])[0])), "length": wall - points[begin][0]}
+
+
+def rows(results):
+    slopes = {base: by_seed(with_settings(results, base=base), lambda r: r["slope"]) for base in BASES}
+    for base, own in slopes.items():
+        low, high = sorted(critical(inner, math.degrees(math.atan(base))) for inner in INNER)
+        row = Row(f"slope on a base of friction {base:g} [°]",
+                  f"{low:.1f} to {high:.1f}: Dahlen (1984), inner friction {INNER[0]} to {INNER[1]}°", "± 3°")
+        for key, values in own.items():
+            row.add(key, values, low - 3, high + 3)
+        yield row
+    row = Row("rise of the slope with the base's friction, the lesser [°]", "rises: Dahlen (1984)", "> 0")
+    for key in slopes[BASES[0]]:
+        means = [sum(own[key]) / len(own[key]) for own in slopes.values()]
+        row.add(key, [min(b - a for a, b in zip(means, means[1:]))], 1e-9, 90)
+    yield row
+
+
+CAUSES = []
