@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heat in an insulated rod of three pieces, with MPI started by the program itself: rod alone and mpirun -np 2 rod give
-// the same numbers.
-#include <mpi.h>
-
+// Heat in an insulated rod of three pieces: rod alone and mpirun -np 2 rod give the same numbers.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -10,7 +7,7 @@
 #include <vector>
 
 #include "runtime/simulation.hpp"
-#include "runtime/transport/mpi.hpp"
+#include "runtime/transport/mpi_session.hpp"
 
 using namespace moraine::runtime;
 
@@ -67,16 +64,12 @@ class Rod final : public Model {
   }();
 };
 
-int main(int argc, char** argv) {
-  int level = 0;
-  MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &level);
-  {
-    const std::unique_ptr<Transport> ranks = make_mpi(MPI_COMM_WORLD);
-    Rod rod;
-    Simulation simulation(rod, {.threads = 1, .scheduler = "stealing", .transport = ranks.get()});
-    simulation.run(0, 400);
-    for (const SubModelId id : rod.held())
-      std::printf("rank %d has piece %u: %.17g\n", ranks->rank(), id, static_cast<Piece&>(rod.sub_model(id)).hottest());
-  }
-  MPI_Finalize();
+int main() {
+  MpiSession ranks;
+  Rod rod;
+  Simulation simulation(rod, {.threads = 1, .scheduler = "stealing", .transport = &ranks.transport()});
+  simulation.run(0, 400);
+  for (const SubModelId id : rod.held())
+    std::printf("rank %d has piece %u: %.17g\n", ranks.transport().rank(), id,
+                static_cast<Piece&>(rod.sub_model(id)).hottest());
 }

@@ -40,21 +40,22 @@ def by_round(runs, key):
     return list(zip(*([r[key] for r in s["balance"]["rounds"]] for s in runs)))
 
 
-def medians(by_round):
-    return [statistics.median(values) for values in by_round]
+def medians(rounds):
+    return [statistics.median(values) for values in rounds]
 
 
 def balance_row(scene, runs, stays):
     steps = [r["step"] for r in runs[0]["balance"]["rounds"]]
-    stay, balanced = medians(by_round(stays, "imbalance")), medians(by_round(runs, "imbalance"))
-    columns = (steps, stay, balanced, by_round(runs, "imbalance"), medians(by_round(runs, "forecast")),
+    each = by_round(runs, "imbalance")
+    stay, balanced = medians(by_round(stays, "imbalance")), medians(each)
+    columns = (steps, stay, balanced, each, medians(by_round(runs, "forecast")),
                medians(by_round(runs, "moves")), medians(by_round(runs, "bytes")))
     print(f"{scene}: {runs[0]['elements']} elements, {runs[0]['sub_models']} sub-models, {runs[0]['ranks']} ranks, medians of {len(runs)}")
     print(f"  {'step':>6} {'owners stay':>11} {'balanced':>9} {'least':>7} {'most':>7} {'forecast':>9} {'moves':>6} {'KiB':>8}")
     for step, s, b, all_runs, forecast, moves, size in zip(*columns):
         print(f"  {step:6} {s:11.3f} {b:9.3f} {min(all_runs):7.3f} {max(all_runs):7.3f} {forecast:9.3f} {moves:6.0f} {size / 1024:8.0f}")
     within, settled = since_balanced(since_uneven(balanced, stay))
-    single = [i for run in zip(*by_round(runs, "imbalance")) for i in since_balanced(since_uneven(run, stay))[1]]
+    single = [i for run in zip(*each) for i in since_balanced(since_uneven(run, stay))[1]]
     row = {
         "scene": scene,
         "rounds": len(steps),

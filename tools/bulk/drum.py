@@ -40,7 +40,7 @@ def surface_angle(spheres):
     """Of the middle half of the surface; the drum lifts the side of lesser x [degrees]."""
     top = frames.tops([s for s in spheres if math.hypot(s.x, s.z) < RADIUS - 0.8], 1)
     points = [(i + 0.5, top[i]) for i in range(-RADIUS // 2, RADIUS // 2) if i in top]
-    return abs(math.degrees(math.atan(frames.line(points)[0])))
+    return abs(frames.slope(points))
 
 
 def off_axis(spheres):

@@ -47,6 +47,11 @@ def line(points):
     return slope, my - slope * mx
 
 
+def at(folder, summary, time):
+    """The first frame at that time or after it."""
+    return read(next(path for step, path in paths(folder) if step * summary["dt"] >= time - 1e-6))
+
+
 def tops(spheres, pitch):
     """Highest point of what lies in each slice of x, by the slice's number."""
     out = {}
@@ -63,3 +68,16 @@ def depths(spheres, distance, area):
         i = math.floor(distance(s))
         out[i] = out.get(i, 0.0) + s.volume / area(i)
     return out
+
+
+def rising_surface(spheres, wall, above):
+    """Tops of slices of one diameter, from where all are higher than `above` to two diameters before a wall at x: places
+    and heights."""
+    top = tops([s for s in spheres if s.x < wall], 1)
+    points = [(i + 0.5, top[i]) for i in sorted(top) if i + 1 <= wall - 2]
+    return points[next(n for n in range(len(points)) if all(z > above for _, z in points[n:])):]
+
+
+def slope(points):
+    """Of the straight line through them [degrees]."""
+    return math.degrees(math.atan(line(points)[0]))

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 """How steep a heap is, on both sides, and whether it stays so."""
-import math
-
 from . import frames
 from .rows import Row, by_seed, row_of, with_settings
 from .runs import Job
@@ -30,16 +28,13 @@ def slopes(spheres):
     """Of both flanks, from 3 diameters beside the middle to 2 before the edges of the plate [degrees]."""
     top = frames.tops([s for s in spheres if s.z > 0], D)
     sides = ([(i + 0.5, top.get(i, 0) / D) for i in range(-13, -3)], [(i + 0.5, top.get(i, 0) / D) for i in range(3, 13)])
-    left, right = (math.degrees(math.atan(frames.line(points)[0])) for points in sides)
+    left, right = (frames.slope(points) for points in sides)
     return left, -right
 
 
 def measure(folder, summary, settings):
-    found = frames.paths(folder)
-    left, right = slopes(frames.read(found[-1][1]))
-    watched = summary["time"] - settings["rest"]
-    early = next(path for step, path in found if step * summary["dt"] >= watched - 1e-9)
-    before = sum(slopes(frames.read(early))) / 2
+    left, right = slopes(frames.last(folder))
+    before = sum(slopes(frames.at(folder, summary, summary["time"] - settings["rest"]))) / 2
     return {"angle": (left + right) / 2, "sides": abs(left - right), "lost": before - (left + right) / 2}
 
 

@@ -32,16 +32,11 @@ def critical(inner, base):
 
 
 def measure(folder, summary, settings):
-    """The wedge begins where the surface is a diameter above the layer for good, and ends two diameters before the wall."""
-    found = frames.paths(folder)
-    before = next(path for step, path in found if step * summary["dt"] >= SETTLED * TICK - 1e-6)
-    wall = LENGTH - PUSHED
-    level = frames.tops(frames.read(before), 1)
+    """The wedge begins where the surface is a diameter above the layer for good."""
+    wall, level = LENGTH - PUSHED, frames.tops(frames.at(folder, summary, SETTLED * TICK), 1)
     layer = sum(level[i] for i in range(5, LENGTH - 20)) / (LENGTH - 25)
-    top = frames.tops([s for s in frames.read(found[-1][1]) if s.x < wall], 1)
-    points = [(i + 0.5, top[i]) for i in sorted(top) if i + 1 <= wall - 2]
-    begin = next(n for n in range(len(points)) if all(z > layer + 1 for _, z in points[n:]))
-    return {"slope": math.degrees(math.atan(frames.line(points[begin:])[0])), "length": wall - points[begin][0]}
+    surface = frames.rising_surface(frames.last(folder), wall, layer + 1)
+    return {"slope": frames.slope(surface), "length": wall - surface[0][0]}
 
 
 def rows(results):

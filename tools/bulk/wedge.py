@@ -18,17 +18,12 @@ def jobs(seeds):
 
 
 def slope(spheres, wall):
-    """Of the surface, from where it is two diameters high to two diameters before the wall [degrees]."""
-    top = frames.tops([s for s in spheres if s.x < wall], 1)
-    points = [(i + 0.5, top[i]) for i in sorted(top) if i + 1 <= wall - 2]
-    begin = next(n for n, p in enumerate(points) if all(q[1] > 2 for q in points[n:]))
-    return math.degrees(math.atan(frames.line(points[begin:])[0]))
+    """Of the surface, from where it is two diameters high."""
+    return frames.slope(frames.rising_surface(spheres, wall, 2))
 
 
 def measure(folder, summary, settings):
-    found = frames.paths(folder)
-    before = next(path for step, path in found if step * summary["dt"] >= SETTLED * TICK - 1e-6)
-    start, end = frames.read(before), frames.read(found[-1][1])
+    start, end = frames.at(folder, summary, SETTLED * TICK), frames.last(folder)
     moved = sum(s.x for s in start) / len(start) - sum(s.x for s in end) / len(end)
     return {"before": slope(start, 40), "after": slope(end, 36), "moved": moved}
 
