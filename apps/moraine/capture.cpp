@@ -112,8 +112,7 @@ Frame capture(const CoupledModel& model, runtime::Transport& transport, std::int
   return frame;
 }
 
-Summary summarise(const CoupledModel& model, runtime::Simulation& simulation, double wall_s, double loop_wall_s,
-                  double loop_cpu_s) {
+Summary summarise(const CoupledModel& model, runtime::Simulation& simulation, const Spent& spent) {
   const Scene& scene = model.scene();
   const ModelStatistics statistics = model.statistics(scene.time.steps * scene.time.substeps);
   const OverlapStatistics overlaps = model.overlaps();
@@ -140,11 +139,11 @@ Summary summarise(const CoupledModel& model, runtime::Simulation& simulation, do
   s.substeps = scene.time.substeps;
   s.dt = scene.time.dt;
   s.time = static_cast<double>(scene.time.steps) * scene.time.dt;
-  s.wall_s = wall_s;
-  s.loop_wall_s = loop_wall_s;
-  s.loop_cpu_s = sum_over_ranks(transport, loop_cpu_s);
-  const double element_steps = static_cast<double>(s.elements) * static_cast<double>(s.steps) * s.substeps;
-  s.element_steps_per_s = loop_wall_s > 0 ? element_steps / loop_wall_s : 0;
+  s.wall_s = spent.wall_s;
+  s.loop_wall_s = spent.loop_wall_s;
+  s.loop_cpu_s = sum_over_ranks(transport, spent.loop_cpu_s);
+  const double element_steps = static_cast<double>(s.elements) * static_cast<double>(spent.rounds);
+  s.element_steps_per_s = spent.loop_wall_s > 0 ? element_steps / spent.loop_wall_s : 0;
   s.peak_rss_bytes = static_cast<std::uint64_t>(sum_over_ranks(transport, static_cast<double>(peak_rss_bytes())));
   if (transport.rank() == 0) s.state_hash = fmt::format("{:016x}", state_hash(scene, elements.state));
   s.ghosts = {statistics.ghosts_mean, statistics.ghosts_max, statistics.ghosts_now, share(statistics.ghosts_mean),

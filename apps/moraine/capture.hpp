@@ -11,8 +11,14 @@ namespace moraine::app {
 
 /// Collective; complete on rank 0, empty elsewhere.
 Frame capture(const CoupledModel& model, runtime::Transport& transport, std::int64_t step);
-/// Collective; complete on rank 0. `loop_cpu_s`: processor time of this rank.
-Summary summarise(const CoupledModel& model, runtime::Simulation& simulation, double wall_s, double loop_wall_s,
-                  double loop_cpu_s);
+/// What this process did of a run, which may have begun in another one.
+struct Spent {
+  double wall_s = 0, loop_wall_s = 0;
+  double loop_cpu_s = 0;    ///< processor time of this rank
+  std::int64_t rounds = 0;  ///< taken in the loop
+};
+
+/// Collective; complete on rank 0.
+Summary summarise(const CoupledModel& model, runtime::Simulation& simulation, const Spent& spent);
 
 }  // namespace moraine::app

@@ -84,13 +84,14 @@ class Run {
     const auto loop = Clock::now();
     const double cpu = processor_seconds();
     simulation_.run(first_round_, rounds() - first_round_);
-    const double loop_wall = since(loop), loop_cpu = processor_seconds() - cpu;
+    Spent spent{.loop_wall_s = since(loop), .loop_cpu_s = processor_seconds() - cpu, .rounds = rounds() - first_round_};
     model_.conclude(rounds());
     progress_.finish();
     print_news();
     write_frame(scene_.time.steps);
     if (writes()) writer_->finish();
-    return summarise(model_, simulation_, since(begin_), loop_wall, loop_cpu);
+    spent.wall_s = since(begin_);
+    return summarise(model_, simulation_, spent);
   }
 
  private:

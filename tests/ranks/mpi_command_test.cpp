@@ -93,6 +93,17 @@ TEST_F(Mpi, KeepsFramesOverARestart) {
   EXPECT_EQ(frames, 8) << "steps 0, 30, 60, 90, 120, 150, 180, 200";
 }
 
+/// Its speed is that of its own steps; the newest checkpoint is of the second half.
+TEST_F(Mpi, CountsItsOwnStepsAfterARestart) {
+  EXPECT_EQ(run(0, "--steps 200 --checkpoint-every 10").status, 0);
+  EXPECT_EQ(run(0, "--steps 220 --restart latest").status, 0);
+  const Json all = summary();
+  const double done = all.at("element_steps_per_s").get<double>() * all.at("loop_wall_s").get<double>();
+  const double whole = all.at("elements").get<double>() * 220;
+  EXPECT_GE(done, 0.999 * whole * 20 / 220);
+  EXPECT_LE(done, whole / 2);
+}
+
 /// A checkpoint of other materials is of another run. 200 steps see several epochs, of which the longest has 64 rounds;
 /// the first checkpoint is made after the first of them.
 TEST_F(Mpi, RefusesACheckpointOfAnotherStiffness) {
