@@ -17,14 +17,19 @@ def launcher(ranks):
     return [] if ranks == 1 else ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none"]
 
 
+def run_into(out, moraine, scene, options, ranks=1):
+    """One run into a folder; returns its summary."""
+    command = launcher(ranks) + [moraine, "run", os.path.join(ROOT, "apps/scenes", scene + ".yaml"), "--out", out, "--quiet",
+               "--output-every", "0", "--set", "output.pictures=false", "--set", "output.formats=[csv]"] + options
+    subprocess.run(command, check=True)
+    with open(os.path.join(out, "summary.json")) as f:
+        return json.load(f)
+
+
 def run(moraine, scene, options, ranks=1):
     """One run; returns its summary."""
     with tempfile.TemporaryDirectory() as out:
-        command = launcher(ranks) + [moraine, "run", os.path.join(ROOT, "apps/scenes", scene + ".yaml"), "--out", out, "--quiet",
-                   "--output-every", "0", "--set", "output.pictures=false", "--set", "output.formats=[csv]"] + options
-        subprocess.run(command, check=True)
-        with open(os.path.join(out, "summary.json")) as f:
-            return json.load(f)
+        return run_into(out, moraine, scene, options, ranks)
 
 
 def measure(arguments, scene, cases):
