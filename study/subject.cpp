@@ -24,9 +24,17 @@ std::vector<Override> joined(std::vector<Override> a, const std::vector<Override
   return a;
 }
 
-std::vector<Override> overrides_of(const AxisBlock& block) {
+std::vector<Override> overrides_of(const Choices& choices) {
   std::vector<Override> all;
-  for (const Axis& axis : block) all.push_back({key_of(axis.key), axis.values.front(), axis.place});
+  for (const Choice& c : choices)
+    if (c.name != limit_share) all.push_back({key_of(c.name), c.value, c.place});
+  return all;
+}
+
+/// The first value of each.
+Choices choices_of(const AxisBlock& block) {
+  Choices all;
+  for (const Axis& axis : block) all.push_back({axis.key, axis.values.front(), axis.place});
   return all;
 }
 
@@ -44,12 +52,22 @@ double share_of(const Choice& choice) {
   return share;
 }
 
+bool has_largest_substep(const Scene& scene) {
+  return std::isfinite(find_engine(scene.run.engine, scene).step_limit(scene).substep);
+}
+
+bool states_step(const Choices& choices) {
+  return std::any_of(choices.begin(), choices.end(), [](const Choice& c) {
+    return c.name == limit_share || key_of(c.name) == "time.dt" || key_of(c.name) == "time.substeps";
+  });
+}
+
 /// Substeps of a share of the engine's largest.
 int substeps_within(const Scene& scene, const Choice& choice) {
-  const StepLimit limit = find_engine(scene.run.engine, scene).step_limit(scene);
-  if (!std::isfinite(limit.substep))
+  if (!has_largest_substep(scene))
     throw InputError(fmt::format("{}: engine {} has no largest substep for this scene, expected substeps instead of {}",
                                  choice.place, scene.run.engine, limit_share));
+  const StepLimit limit = find_engine(scene.run.engine, scene).step_limit(scene);
   return static_cast<int>(std::max(1.0, std::ceil(scene.time.dt / (share_of(choice) * limit.substep) - 1e-9)));
 }
 
@@ -106,8 +124,7 @@ Subject::Subject(std::string file, std::vector<Override> overrides, Identify ide
 Setting Subject::resolve(const Choices& choices) const {
   Setting s;
   s.choices = choices;
-  for (const Choice& c : choices)
-    if (c.name != limit_share) s.changes.push_back({key_of(c.name), c.value, c.place});
+  s.changes = overrides_of(choices);
   Scene scene = read_scene(file_, joined(overrides_, s.changes));
   const auto steps = std::max<std::int64_t>(1, std::llround(duration_ / scene.time.dt));
   if (steps != scene.time.steps || scene.time.dt != scene_.time.dt) {
@@ -141,18 +158,24 @@ std::vector<AxisBlock> Subject::grid() const {
 }
 
 Choices Subject::reference() const {
-  Choices choices;
-  for (const Axis& axis : scene_.study.reference) choices.push_back({axis.key, axis.values.front(), axis.place});
-  if (!choices.empty()) return choices;
-  if (!takes_shapes(find_engine("soft_sphere"), scene_))
-    throw InputError(
-        fmt::format("{}: engine soft_sphere does not take this scene's shapes, expected tradeoff.reference, or "
-                    "right values under expect",
-                    file_));
-  return {{"engine", "soft_sphere", "the usual reference"}, {std::string(limit_share), "0.5", "the usual reference"}};
+  Choices choices = choices_of(scene_.study.reference);
+  if (choices.empty()) {
+    if (!takes_shapes(find_engine("soft_sphere"), scene_))
+      throw InputError(
+          fmt::format("{}: engine soft_sphere does not take this scene's shapes, expected tradeoff.reference, or "
+                      "right values under expect",
+                      file_));
+    choices.push_back({"engine", "soft_sphere", "the usual reference"});
+  }
+  const Scene scene = read_scene(file_, joined(overrides_, overrides_of(choices)));
+  if (!states_step(choices) && has_largest_substep(scene))
+    choices.push_back({std::string(limit_share), "0.5", choices.front().place});
+  return choices;
 }
 
-Subject Subject::proxy() const { return {file_, joined(overrides_, overrides_of(scene_.study.proxy)), identify_}; }
+Subject Subject::proxy() const {
+  return {file_, joined(overrides_, overrides_of(choices_of(scene_.study.proxy))), identify_};
+}
 
 /// A thousandth of the speed that an element gains by falling its radius, or of the fastest one's.
 double Subject::perturbation_speed() const {

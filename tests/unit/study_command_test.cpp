@@ -176,6 +176,21 @@ TEST_F(Study, ComparesWithAReference) {
   EXPECT_TRUE(all.at("best").at(2).contains("times_reference"));
 }
 
+TEST_F(Study, AStiffReferenceTakesStepsToMatch) {
+  const std::string text = scene.substr(0, scene.find("expect:"));
+  const auto substeps_at = [&](const std::string& stiffness) {
+    rewrite(
+        changed(text, "seeds: 3",
+                "seeds: 1\n  reference: {engine: soft_sphere, materials.ball.normal_stiffness: " + stiffness + "}"));
+    const Ended ended = command("tradeoff", "--engine impulse --observables com_x");
+    EXPECT_EQ(ended.status, 0) << ended.text;
+    return read("settings.json").at("reference").at("substeps").get<int>();
+  };
+  const int soft = substeps_at("1e8"), stiff = substeps_at("1e10");
+  EXPECT_GT(soft, 1);
+  EXPECT_NEAR(stiff, 10 * soft, 10);
+}
+
 TEST_F(Study, PeersAreCompared) {
   const Ended ended = command("tradeoff", "--seeds 2 --peer 'other=0.5,com_x=0.3'");
   ASSERT_EQ(ended.status, 0) << ended.text;
