@@ -104,7 +104,7 @@ TEST_P(KnownAnswer, IsFound) {
 std::vector<Trial> all_trials() {
   std::vector<Trial> out;
   for (const std::vector<Case>& some : {test::one_body(), test::two_bodies(), test::chung_ooi(), test::bonded(),
-                                        test::many_bodies(), test::consistency(), test::orders()})
+                                        test::lattices(), test::many_bodies(), test::consistency(), test::orders()})
     for (const Case& c : some)
       for (const Engine& e : engines())
         for (const bool cut : {false, true})

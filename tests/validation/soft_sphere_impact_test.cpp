@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Impacts of soft spheres: how long they last, how deep they go, how fast they part, what they turn into spin.
+// Impacts of soft spheres: how long they last, how fast they part, what they turn into spin.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,26 +20,14 @@ using test::weightless;
 
 const Engine& soft() { return find_engine("soft_sphere"); }
 
-/// What happened between the first and the last substep with a contact.
-struct Impact {
-  double duration = 0;   ///< [s]
-  double deepest = 0;    ///< largest overlap [m]
-  double strongest = 0;  ///< largest force [N]
-};
-
-Impact watch(SingleWorld& w, int most_substeps) {
-  Impact seen;
+/// Steps until the two have met and parted: how long they touched [s].
+double watch(SingleWorld& w, int most_substeps) {
   int substeps = 0;
   for (int k = 0; k < most_substeps && (substeps == 0 || w.world().work().contacts > 0); ++k) {
     w.substeps(1);
-    if (w.world().work().contacts == 0) continue;
-    ++substeps;
-    const Contact c = w.world().contacts().at(0);
-    seen.deepest = std::max(seen.deepest, c.overlap);
-    seen.strongest = std::max(seen.strongest, c.impulse.norm() / w.substep());
+    if (w.world().work().contacts > 0) ++substeps;
   }
-  seen.duration = substeps * w.substep();
-  return seen;
+  return substeps * w.substep();
 }
 
 struct Pair {
@@ -63,8 +51,7 @@ TEST_P(LinearImpact, LastsAndReturnsWhatTheFormulaSays) {
                                                        -0.1 - h * (1 + phase / 20.0), m1, m2),
                                            fmt::format("normal_stiffness: {}, restitution: {}", k, e), weightless),
                                    {set("dt", h)}));
-    const Impact seen = watch(w, 1000);
-    EXPECT_NEAR(seen.duration, duration, 2 * h) << phase;
+    EXPECT_NEAR(watch(w, 1000), duration, 2 * h) << phase;
     const double v1 = w.velocity(1).x(), v2 = w.velocity(2).x();
     EXPECT_NEAR(v2 - v1, e, 0.005) << phase;
     EXPECT_NEAR(m1 * v1 + m2 * v2, m1, 1e-12 * m1) << phase;
@@ -102,87 +89,6 @@ TEST(SoftImpact, KeepsEnergyToSecondOrderWithoutDamping) {
   EXPECT_GT(coarse / middle, 3.3);
   EXPECT_GT(middle / fine, 3.3);
 }
-
-/// Hertz (1882): Chung & Ooi (2011), tests 1 and 2.
-TEST(HertzImpact, OfEqualGlassSpheres) {
-  SingleWorld w(
-      soft(), scene_of(weightless +
-                       "materials: {glass: {density: 2800, restitution: 1, young: 4.8e10, poisson: 0.2}}\n"
-                       "elements:\n  - {packing: list, shape: {sphere: 0.01}, items: [{at: [-0.01001, 0, 0], velocity: "
-                       "[10, 0, 0]}, {at: [0.01001, 0, 0], velocity: [-10, 0, 0]}]}\ntime: {dt: 1e-7, steps: 1}\n"));
-  const Impact seen = watch(w, 2000);
-  EXPECT_NEAR(seen.strongest, 10697, 0.01 * 10697);
-  EXPECT_NEAR(seen.deepest, 274.1e-6, 0.005 * 274.1e-6);
-  EXPECT_NEAR(seen.duration, 40.35e-6, 0.005 * 40.35e-6);
-}
-
-TEST(HertzImpact, OfAnAluminiumSphereOnAPlane) {
-  SingleWorld w(
-      soft(),
-      scene_of(weightless +
-               "materials: {ball: {density: 2699, restitution: 1, young: 7e10, poisson: 0.3}, rigid: {density: 1, "
-               "restitution: 1, young: 7e15, poisson: 0.3}}\n"
-               "elements:\n  - {packing: list, shape: {sphere: 0.1}, material: ball, items: [{at: [0, 0, "
-               "0.1000001], velocity: [0, 0, -0.2]}]}\n"
-               "boundaries: [{plane: {normal: [0, 0, 1]}, material: rigid}]\ntime: {dt: 1e-6, steps: 1}\n"));
-  const Impact seen = watch(w, 3000);
-  EXPECT_NEAR(seen.strongest, 11370, 0.01 * 11370);
-  EXPECT_NEAR(seen.deepest, 49.72e-6, 0.005 * 49.72e-6);
-  EXPECT_NEAR(seen.duration, 731.8e-6, 0.005 * 731.8e-6);
-}
-
-TEST(HertzImpact, ReturnsTheStatedShare) {
-  for (const double e : {0.2, 0.4, 0.6, 0.8, 1.0}) {
-    SingleWorld w(soft(), scene_of(weightless +
-                                   fmt::format("materials: {{ball: {{density: 4000, restitution: {}, young: 3.8e11, "
-                                               "poisson: 0.23}}}}\n",
-                                               e) +
-                                   "elements:\n  - {packing: list, shape: {sphere: 0.0025}, items: [{at: [0, 0, "
-                                   "0.002501], velocity: [0, 0, -3.9]}]}\n"
-                                   "boundaries: [{plane: {normal: [0, 0, 1]}}]\ntime: {dt: 1e-8, steps: 1}\n"));
-    watch(w, 4000);
-    EXPECT_NEAR(w.velocity(0).z() / 3.9, e, 0.005);
-  }
-}
-
-struct Angle {
-  double degrees;     ///< between the way and the plane's normal
-  double tangential;  ///< v_t' / v_t
-  double spin;        ///< [rad/s]; 0: not known
-  double tolerance;   ///< of v_t' / v_t
-};
-void PrintTo(const Angle& a, std::ostream* out) { *out << a.degrees << " degrees"; }
-
-class ObliqueHertzImpact : public testing::TestWithParam<Angle> {};
-
-/// Chung & Ooi (2011), test 4: aluminium oxide, r = 2.5 mm, 3.9 m/s, e = 0.98, mu = 0.092. Beyond 32.5 degrees it
-/// slides all the time and the answer is rigid-body; below, digitised from the paper, it is the tangential spring's.
-TEST_P(ObliqueHertzImpact, TurnsIntoSpinWhatMindlinSays) {
-  const Angle& a = GetParam();
-  const double angle = a.degrees * pi / 180, vt = 3.9 * std::sin(angle), vn = 3.9 * std::cos(angle);
-  SingleWorld w(soft(), scene_of(weightless +
-                                 "materials: {ball: {density: 4000, friction: 0.092, restitution: 0.98, young: 3.8e11, "
-                                 "poisson: 0.23}}\nelements:\n  - {packing: list, shape: {sphere: 0.0025}, items: [" +
-                                 fmt::format("{{at: [0, 0, 0.002501], velocity: [{}, 0, {}]}}]}}\n", vt, -vn) +
-                                 "boundaries: [{plane: {normal: [0, 0, 1]}}]\ntime: {dt: 1e-8, steps: 1}\n"));
-  watch(w, 4000);
-  EXPECT_NEAR(w.velocity(0).z(), 0.98 * vn, 0.005 * vn);
-  EXPECT_NEAR(w.velocity(0).x() / vt, a.tangential, a.tolerance);
-  const Vec3 spin = w.state(0).twist.angular;
-  EXPECT_NEAR(w.velocity(0).x() + 0.4 * 0.0025 * spin.y(), vt, 2e-3 * vt)
-      << "about the point of contact, but for the overlap";
-  if (a.spin > 0) {
-    EXPECT_NEAR(spin.y(), a.spin, 0.01 * a.spin);
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(ChungOoi4, ObliqueHertzImpact,
-                         testing::Values(Angle{10, 0.687, 0, 0.05}, Angle{15, 0.624, 0, 0.05},
-                                         Angle{20, 0.616, 0, 0.05}, Angle{25, 0.634, 0, 0.05},
-                                         Angle{30, 0.684, 0, 0.05}, Angle{40, 0.783, 544.2, 0.005},
-                                         Angle{50, 0.847, 456.7, 0.005}, Angle{60, 0.895, 355.2, 0.005},
-                                         Angle{70, 0.934, 243.0, 0.005}, Angle{80, 0.968, 123.4, 0.005}),
-                         [](const auto& test) { return fmt::format("at{:.0f}", test.param.degrees); });
 
 struct Budget {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();

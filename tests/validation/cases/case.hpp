@@ -45,6 +45,7 @@ std::vector<Case> one_body();
 std::vector<Case> two_bodies();
 std::vector<Case> chung_ooi();
 std::vector<Case> bonded();
+std::vector<Case> lattices();
 std::vector<Case> many_bodies();
 std::vector<Case> consistency();
 std::vector<Case> orders();
