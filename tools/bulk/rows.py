@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Rows of the table: what should come out, and what did."""
+import dataclasses
 import statistics
 
 ENGINES = ("impulse", "bullet", "soft_sphere")
@@ -17,6 +18,14 @@ def by_seed(results, value):
 def with_settings(results, **wanted):
     """Results of the jobs that state these; what a job does not state is 0."""
     return {j: r for j, r in results.items() if all(dict(j.settings).get(k, 0) == v for k, v in wanted.items())}
+
+
+def twins(results, name, early, late):
+    """Jobs whose setting of that name is `late`, with the results of the one that is `early` otherwise alike, and of their own."""
+    for job, after in results.items():
+        if dict(job.settings)[name] == late:
+            settings = tuple((k, early if k == name else v) for k, v in job.settings)
+            yield job, results[dataclasses.replace(job, settings=settings)], after
 
 
 def row_of(name, answer, tolerance, results, value, low, high):

@@ -3,7 +3,7 @@
 import math
 
 from . import frames
-from .rows import HOW, Row, row_of
+from .rows import HOW, Row, row_of, twins
 from .runs import Job
 
 TITLE = "C2 silo"
@@ -32,14 +32,10 @@ def measure(folder, summary, settings):
 def floors(results):
     """By engine, how and seed: height of the fill [diameters], share of its weight on the floor, its weight, per fill."""
     out = {}
-    for job, late in results.items():
-        settings = dict(job.settings)
-        if settings["sunk"] != BETWEEN[1]:
-            continue
-        early = next(r for j, r in results.items() if (j.engine, j.how, j.seed) == (job.engine, job.how, job.seed)
-                     and dict(j.settings) == {**settings, "sunk": BETWEEN[0]})
+    for job, early, late in twins(results, "sunk", *BETWEEN):
         force = (early["work"] - late["work"]) / (BETWEEN[1] - BETWEEN[0])
-        out.setdefault((job.engine, job.how, job.seed), {})[settings["fill"]] = (late["height"], force / late["weight"], late["weight"])
+        share = (late["height"], force / late["weight"], late["weight"])
+        out.setdefault((job.engine, job.how, job.seed), {})[dict(job.settings)["fill"]] = share
     return out
 
 

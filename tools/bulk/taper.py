@@ -2,19 +2,18 @@
 """How steep a wedge is that grows before a wall."""
 import math
 
-from . import frames
+from . import frames, shear
 from .rows import HOW, Row, by_seed, with_settings
 from .runs import Job
 
 TITLE = "C7 taper"
-LENGTH, PUSHED, SETTLED, TICK = 150, 35, 20, 1 / math.sqrt(9.81)
-BASES = (0.1, 0.3, 0.6)        # frictions
-INNER = (20, 30)               # friction angles that spheres without rolling friction may have together [degrees]
+LENGTH, PUSHED, SETTLED, TICK = 260, 70, 20, 1 / math.sqrt(9.81)
+BESIDE = ("shear",)     # the case that says which friction angle the grains have
 
 
 def jobs(seeds):
     for how in HOW:
-        for base in BASES:
+        for base in shear.BASES:
             for seed in range(1, seeds + 1):
                 yield Job("taper", "impulse", how, seed, (("base", base),))
 
@@ -40,17 +39,18 @@ def measure(folder, summary, settings):
 
 
 def rows(results):
-    slopes = {base: by_seed(with_settings(results, base=base), lambda r: r["slope"]) for base in BASES}
-    for base, own in slopes.items():
-        low, high = sorted(critical(inner, math.degrees(math.atan(base))) for inner in INNER)
-        row = Row(f"slope on a base of friction {base:g} [°]",
-                  f"{low:.1f} to {high:.1f}: Dahlen (1984), inner friction {INNER[0]} to {INNER[1]}°", "± 3°")
-        for key, values in own.items():
-            row.add(key, values, low - 3, high + 3)
+    inner = shear.grains({j: r for j, r in results.items() if j.case == "shear"})
+    own = {j: r for j, r in results.items() if j.case == "taper"}
+    slopes = {base: by_seed(with_settings(own, base=base), lambda r: r["slope"]) for base in shear.BASES}
+    for base, values_of in slopes.items():
+        answer = critical(inner, math.degrees(math.atan(base)))
+        row = Row(f"slope on a base of friction {base:g} [°]", f"{answer:.1f}: Dahlen (1984), inner friction as sheared", "± 3°")
+        for key, values in values_of.items():
+            row.add(key, values, answer - 3, answer + 3)
         yield row
     row = Row("rise of the slope with the base's friction, the lesser [°]", "rises: Dahlen (1984)", "> 0")
-    for key in slopes[BASES[0]]:
-        means = [sum(own[key]) / len(own[key]) for own in slopes.values()]
+    for key in slopes[shear.BASES[0]]:
+        means = [sum(values_of[key]) / len(values_of[key]) for values_of in slopes.values()]
         row.add(key, [min(b - a for a, b in zip(means, means[1:]))], 1e-9, 90)
     yield row
 
