@@ -25,7 +25,6 @@ constexpr std::string_view pyramid = "ODE's friction is a pyramid: right along i
 constexpr std::string_view implicit = "ODE integrates bonds implicitly, which damps them";
 constexpr std::string_view turning =
     "a turn per substep is taken with the inertia at its start: first order in the step";
-constexpr std::string_view next_step = "found too long after a step, it breaks in the next one";
 constexpr std::string_view pulling =
     "the dashpot pulls at the end of a contact and friction counts its force there too: 6.7 % more at e = 0.5";
 constexpr std::string_view rim =
@@ -54,14 +53,6 @@ constexpr Miss misses[] = {
     {"B1 pair, energy", "ode", true, 1, implicit},
     {"B1 pair, damping", "ode", false, 0.2, implicit},
     {"B1 pair, damping", "ode", true, 0.2, implicit},
-    {"B2 pair breaks", "bullet", false, 2.01, next_step},
-    {"B2 pair breaks", "bullet", true, 2.01, next_step},
-    {"B2 pair breaks", "bullet64", false, 2.01, next_step},
-    {"B2 pair breaks", "bullet64", true, 2.01, next_step},
-    {"B2 pair breaks", "impulse", false, 2.01, next_step},
-    {"B2 pair breaks", "impulse", true, 2.01, next_step},
-    {"B2 pair breaks", "ode", false, 2.01, next_step},
-    {"B2 pair breaks", "ode", true, 2.01, next_step},
 };
 
 struct Trial {

@@ -55,6 +55,9 @@ std::vector<Case> orders();
 ModelRun trial(const Setting& setting, const std::string& text, double dt, std::vector<Override> overrides = {},
                double part_of_limit = 0.1);
 
+/// Masses of 1 kg, spheres of 0.1 m, on bonds; no gravity. Items and bonds as a scene lists them.
+std::string masses_on_springs(const std::string& items, const std::string& bonds);
+
 /// A material for spheres(), with a stiffness for engines that have one: half a swing of two takes 2 ms.
 std::string ball(const Setting& setting, const std::string& material);
 

@@ -61,8 +61,7 @@ std::string scene_text(const Wave& wave, const std::vector<Vec3>& at) {
     for (std::size_t j = i + 1; j < at.size(); ++j)
       if (neighbours(at[i], at[j])) bonds += fmt::format("{{a: {}, b: {}, stiffness: {}}}, ", i, j, stiffness);
   }
-  return "materials: {ball: {density: 1000}}\nelements:\n  - {packing: list, shape: {sphere: 0.1}, mass: 1, items: [" +
-         items + "]}\ntime: {dt: 1e-3, steps: 1}\nbonds: [" + bonds + "]\n" + weightless;
+  return masses_on_springs(items, bonds);
 }
 
 /// Standing for an eighth of a period: the speed in the middle is then that at the start times cos(w t).

@@ -32,6 +32,11 @@ ModelRun trial(const Setting& setting, const std::string& text, double dt, std::
   return ModelRun(scene_of(text, overrides));
 }
 
+std::string masses_on_springs(const std::string& items, const std::string& bonds) {
+  return "materials: {ball: {density: 1000}}\nelements:\n  - {packing: list, shape: {sphere: 0.1}, mass: 1, items: [" +
+         items + "]}\ntime: {dt: 1e-3, steps: 1}\nbonds: [" + bonds + "]\n" + weightless;
+}
+
 std::string ball(const Setting& setting, const std::string& material) {
   return setting.springs() ? material + ", normal_stiffness: 1e6" : material;
 }
