@@ -16,9 +16,9 @@ STEPS = {"soft_sphere": (("step", 0.8e-3),)}
 
 
 def jobs(seeds):
-    for engine, ways in (("impulse", ("whole", "cut")), ("soft_sphere", ("whole",))):
+    for engine, ways in (("impulse", ("whole", "cut")), ("bullet", ("whole", "cut")), ("soft_sphere", ("whole",))):
         for how in ways:
-            for froude, turns in list(TURNS.items())[1:2] if engine == "soft_sphere" else TURNS.items():
+            for froude, turns in TURNS.items() if engine == "impulse" else list(TURNS.items())[1:2]:
                 for seed in range(1, seeds + 1):
                     yield Job("drum", engine, how, seed, (("froude", froude), ("turns", turns), *STEPS.get(engine, ())))
             if engine == "impulse":

@@ -11,12 +11,12 @@ ZHOU = "Zhou et al. (2002), glass beads: 27.4°"
 
 
 def jobs(seeds):
-    """With impulses the set-up of the paper is watched for long; all else only until it rests."""
-    for engine in ("impulse", "soft_sphere"):
+    """With `impulse` the set-up of the paper is watched for long; all else only until it rests."""
+    for engine in ("impulse", "bullet", "soft_sphere"):
         step = STEPS.get(engine, ())
         for how in ("whole",) if engine == "soft_sphere" else ("whole", "cut"):
             for seed in range(1, seeds + 1):
-                yield Job("heap", engine, how, seed, (("friction", 0.4), ("rest", 0 if engine == "soft_sphere" else 10), *step))
+                yield Job("heap", engine, how, seed, (("friction", 0.4), ("rest", 10 if engine == "impulse" else 0), *step))
                 if engine == "soft_sphere":
                     yield Job("heap", engine, how, seed, (("friction", 0.4), ("rolling", 0.05), ("rest", 0), *step))
                 if engine == "impulse":
