@@ -84,8 +84,10 @@ def rows(results):
     yield row
     yield row_of("centre of mass beside the axis, Fr = 3 [R]", "0, all go round: Mellmann (2001)", "0.05",
                  with_settings(results, froude=CENTRIFUGES), lambda r: r["off_axis"], 0, 0.05)
-    row = Row("work of the drum / (weight beside the axis, spin-up), less 1", "0: angular momentum", "± 0.05, springs 0.02")
-    for key, values in by_seed(results, lambda r: r["balance"] - 1).items():
+    # Frames are too few for the torque of a bed that goes round.
+    bedded = {j: r for j, r in results.items() if dict(j.settings)["froude"] in TURNS}
+    row = Row("work of the drum / (weight beside the axis, spin-up), less 1, Fr to 0.1", "0: angular momentum", "± 0.05, springs 0.02")
+    for key, values in by_seed(bedded, lambda r: r["balance"] - 1).items():
         slack = 0.02 if key[0] == "soft_sphere" else 0.05
         row.add(key, values, -slack, slack)
     yield row
