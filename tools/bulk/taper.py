@@ -39,8 +39,10 @@ def measure(folder, summary, settings):
 
 
 def rows(results):
-    inner = shear.grains({j: r for j, r in results.items() if j.case == "shear"})
     own = {j: r for j, r in results.items() if j.case == "taper"}
+    if not own:
+        return
+    inner = shear.grains({j: r for j, r in results.items() if j.case == "shear"})
     slopes = {base: by_seed(with_settings(own, base=base), lambda r: r["slope"]) for base in shear.BASES}
     for base, values_of in slopes.items():
         answer = critical(inner, math.degrees(math.atan(base)))
