@@ -52,8 +52,8 @@ double share_of(const Choice& choice) {
   return share;
 }
 
-bool has_largest_substep(const Scene& scene) {
-  return std::isfinite(find_engine(scene.run.engine, scene).step_limit(scene).substep);
+bool has_largest_substep(const Engine& engine, const Scene& scene) {
+  return std::isfinite(engine.step_limit(scene).substep);
 }
 
 bool states_step(const Choices& choices) {
@@ -64,11 +64,11 @@ bool states_step(const Choices& choices) {
 
 /// Substeps of a share of the engine's largest.
 int substeps_within(const Scene& scene, const Choice& choice) {
-  if (!has_largest_substep(scene))
+  const double largest = find_engine(scene.run.engine, scene).step_limit(scene).substep;
+  if (!std::isfinite(largest))
     throw InputError(fmt::format("{}: engine {} has no largest substep for this scene, expected substeps instead of {}",
                                  choice.place, scene.run.engine, limit_share));
-  const StepLimit limit = find_engine(scene.run.engine, scene).step_limit(scene);
-  return static_cast<int>(std::max(1.0, std::ceil(scene.time.dt / (share_of(choice) * limit.substep) - 1e-9)));
+  return static_cast<int>(std::max(1.0, std::ceil(scene.time.dt / (share_of(choice) * largest) - 1e-9)));
 }
 
 void describe(const Scene& scene, Setting& s) {
@@ -88,7 +88,7 @@ void describe(const Scene& scene, Setting& s) {
 AxisBlock usual_settings(const Engine& engine, const Scene& scene) {
   const std::string place = "the usual settings";
   AxisBlock block{{"engine", {std::string(engine.name)}, place}};
-  if (std::isfinite(engine.step_limit(scene).substep)) {
+  if (has_largest_substep(engine, scene)) {
     block.push_back({std::string(limit_share), {"1", "0.5"}, place});
     return block;
   }
@@ -167,8 +167,9 @@ Choices Subject::reference() const {
                       file_));
     choices.push_back({"engine", "soft_sphere", "the usual reference"});
   }
+  if (states_step(choices)) return choices;
   const Scene scene = read_scene(file_, joined(overrides_, overrides_of(choices)));
-  if (!states_step(choices) && has_largest_substep(scene))
+  if (has_largest_substep(find_engine(scene.run.engine, scene), scene))
     choices.push_back({std::string(limit_share), "0.5", choices.front().place});
   return choices;
 }

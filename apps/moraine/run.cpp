@@ -83,8 +83,10 @@ class Run {
     if (first_round_ == 0) write_frame(0);
     const auto loop = Clock::now();
     const double cpu = processor_seconds();
-    simulation_.run(first_round_, rounds() - first_round_);
-    Spent spent{.loop_wall_s = since(loop), .loop_cpu_s = processor_seconds() - cpu, .rounds = rounds() - first_round_};
+    Spent spent{.rounds = rounds() - first_round_};
+    simulation_.run(first_round_, spent.rounds);
+    spent.loop_wall_s = since(loop);
+    spent.loop_cpu_s = processor_seconds() - cpu;
     model_.conclude(rounds());
     progress_.finish();
     print_news();

@@ -24,6 +24,11 @@ class Sphere:
         return 0.5 * self.volume * squares
 
 
+def weight(spheres):
+    """Of spheres of density 6 / pi, so that one of unit diameter weighs 9.81 N."""
+    return 6 / math.pi * sum(s.volume for s in spheres) * 9.81
+
+
 def paths(folder):
     """Of all frames, with their steps."""
     found = glob.glob(os.path.join(folder, "frames", "elements_*.csv"))

@@ -8,7 +8,6 @@ from .rows import HOW, Row, twins
 from .runs import Job
 
 TITLE = "C7 shear"
-GRAVITY = 9.81
 BASES = (0.1, 0.3, 0.6)   # frictions of flat bases
 WAYS = (4, 12)            # of the base, diameters: what happens between them counts
 LENGTHS = (16, 24)        # of the bed, diameters: what the longer has more counts, both have the same ends
@@ -27,8 +26,7 @@ def jobs(seeds):
 
 
 def measure(folder, summary, settings):
-    weight = 6 / math.pi * sum(s.volume for s in frames.last(folder)) * GRAVITY
-    return {"work": summary["energy"]["work_of_boundaries"], "weight": weight}
+    return {"work": summary["energy"]["work_of_boundaries"], "weight": frames.weight(frames.last(folder))}
 
 
 def angles(results):

@@ -7,7 +7,7 @@ from .rows import HOW, Row, row_of, twins
 from .runs import Job
 
 TITLE = "C2 silo"
-WIDTH, WALL_FRICTION, GRAVITY = 10, 0.5, 9.81
+WIDTH, WALL_FRICTION = 10, 0.5
 FILLS = (1, 2, 4)
 BETWEEN = (0.25, 0.75)  # how far the floor has sunk, diameters
 
@@ -23,7 +23,7 @@ def jobs(seeds):
 
 def measure(folder, summary, settings):
     spheres = frames.last(folder)
-    weight = 6 / math.pi * sum(s.volume for s in spheres) * GRAVITY
+    weight = frames.weight(spheres)
     top = sum(sorted(s.z + s.radius for s in spheres)[-30:]) / 30
     return {"work": summary["energy"]["work_of_boundaries"], "weight": weight, "height": top + settings["sunk"],
             "carried": summary["boundary_force"][2] / weight}

@@ -41,6 +41,9 @@ struct Case {
   bool runs_with(const Engine& engine) const;
 };
 
+/// Cases that all ask the same of an engine.
+std::vector<Case> needing(Needs needs, std::vector<Case> cases);
+
 std::vector<Case> one_body();
 std::vector<Case> two_bodies();
 std::vector<Case> chung_ooi();

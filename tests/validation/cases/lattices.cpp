@@ -87,16 +87,15 @@ double fcc_s(const Setting& s) { return error(s, {fcc, x, y}); }
 }  // namespace
 
 std::vector<Case> lattices() {
-  std::vector<Case> all{
-      {"B4 P wave, triangular", "20 m long, step T / 1000: for long ones c = 1.0607 a sqrt(K / m)", triangular_p, 0.05,
-       0.01},
-      {"B4 S wave, triangular", "the same: 0.6124", triangular_s, 0.05, 0.01},
-      {"B4 P wave, FCC [100]", "the same: 1", fcc_p, 0.05, 0.01},
-      {"B4 P wave, FCC [110]", "the same: 1.1180", fcc_p_diagonal, 0.05, 0.01},
-      {"B4 S wave, FCC [100]", "the same: 0.7071", fcc_s, 0.05, 0.01},
-  };
-  for (Case& c : all) c.needs = needs_bonds;
-  return all;
+  return needing(needs_bonds,
+                 {
+                     {"B4 P wave, triangular", "20 m long, step T / 1000: for long ones c = 1.0607 a sqrt(K / m)",
+                      triangular_p, 0.05, 0.01},
+                     {"B4 S wave, triangular", "the same: 0.6124", triangular_s, 0.05, 0.01},
+                     {"B4 P wave, FCC [100]", "the same: 1", fcc_p, 0.05, 0.01},
+                     {"B4 P wave, FCC [110]", "the same: 1.1180", fcc_p_diagonal, 0.05, 0.01},
+                     {"B4 S wave, FCC [100]", "the same: 0.7071", fcc_s, 0.05, 0.01},
+                 });
 }
 
 }  // namespace moraine::test

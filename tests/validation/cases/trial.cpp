@@ -21,6 +21,11 @@ bool Case::runs_with(const Engine& engine) const {
          (!(needs & needs_impulses) || !springs) && (!(needs & needs_springs) || springs);
 }
 
+std::vector<Case> needing(Needs needs, std::vector<Case> cases) {
+  for (Case& c : cases) c.needs = needs;
+  return cases;
+}
+
 ModelRun trial(const Setting& setting, const std::string& text, double dt, std::vector<Override> overrides,
                double part_of_limit) {
   overrides.push_back(set("run.engine", setting.engine));
