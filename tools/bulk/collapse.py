@@ -6,15 +6,15 @@ from collections.abc import Callable
 
 from . import frames
 from .rows import Row, by_seed, with_settings
-from .runs import Job
+from .sweep import jobs_of
 
 
 @dataclasses.dataclass(frozen=True)
 class Collapse:
     case: str
     length: float          # of what stands, from the wall or the axis, diameters
-    aspects: dict          # per engine: heights / length
-    steps: dict            # per engine: settings
+    aspects: tuple         # heights / length
+    sweeps: tuple
     distance: Callable     # of a sphere from the wall or the axis
     area: Callable         # of the floor in slice n of one diameter
     settled: Callable      # of the aspect: time at which the support goes [s]
@@ -23,11 +23,7 @@ class Collapse:
     power: float           # of the aspect, for tall ones
 
     def jobs(self, seeds):
-        for engine, aspects in self.aspects.items():
-            for how in ("whole",) if engine == "soft_sphere" else ("whole", "cut"):
-                for aspect in aspects:
-                    for seed in range(1, seeds + 1):
-                        yield Job(self.case, engine, how, seed, (("aspect", aspect), *self.steps.get(engine, ())))
+        return jobs_of(self.case, self.sweeps, {"soft_sphere": (("dt", 5e-4),)})(seeds)
 
     def measure(self, folder, summary, settings):
         kinetic, standing, spheres = [], None, []
@@ -52,7 +48,7 @@ class Collapse:
         return sum(sorted(s.z + s.radius for s in spheres if self.distance(s) < 3)[-5:]) / 5
 
     def rows(self, results):
-        for a in self.aspects["impulse"]:
+        for a in self.aspects:
             low, high = sorted(law(a) for law in self.laws)
             row = Row(f"run-out, a = {a:g}", f"{low:.2g} to {high:.2g}: {self.papers}", "± 25 %, springs 15 %")
             for key, values in by_seed(with_settings(results, aspect=a), lambda r: r["run_out"]).items():
@@ -73,6 +69,11 @@ class Collapse:
         for key in of[4]:
             row.add(key, [math.log2(far / near) for near, far in zip(of[2][key], of[4][key])], self.power - 0.15, self.power + 0.15)
         return row
+
+
+def of_aspects(*aspects):
+    """Settings of a run each."""
+    return tuple((("aspect", a),) for a in aspects)
 
 
 ROLLING = ("motion left, a = 0.5", "", "", "one or two spheres still roll down the slope, 0.2 % of the little that falls")

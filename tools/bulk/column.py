@@ -2,7 +2,8 @@
 """A planar column between two walls."""
 import math
 
-from .collapse import ROLLING, Collapse
+from .collapse import ROLLING, Collapse, of_aspects
+from .sweep import Sweep
 
 TITLE = "C5 column"
 LENGTH, WIDTH = 20, 4
@@ -16,8 +17,10 @@ def lajeunesse(a):
     return 1.8 * a if a < 3 else 2.3 * a ** (2 / 3)
 
 
-COLUMN = Collapse("column", LENGTH, {"impulse": (0.5, 1, 2, 4), "bullet": (0.5, 1), "soft_sphere": (0.5, 1)},
-                  {"soft_sphere": (("dt", 5e-4),)}, distance=lambda s: s.x, area=lambda i: WIDTH,
+LOW, HIGH = of_aspects(0.5, 1), of_aspects(2, 4)
+SWEEPS = (Sweep(("impulse", "bullet", "bullet64", "soft_sphere", "ode"), LOW), Sweep(("impulse",), HIGH),
+          Sweep(("bullet", "soft_sphere"), HIGH, seeds=1))
+COLUMN = Collapse("column", LENGTH, (0.5, 1, 2, 4), SWEEPS, distance=lambda s: s.x, area=lambda i: WIDTH,
                   settled=lambda a: 4 * math.sqrt(a * LENGTH / 9.81) + 4, laws=(lube, lajeunesse),
                   papers="Lube et al. (2005), Lajeunesse et al. (2005)", power=2 / 3)
 jobs, measure, rows = COLUMN.jobs, COLUMN.measure, COLUMN.rows

@@ -2,7 +2,8 @@
 """A cylinder, of which a quarter stands between two smooth walls."""
 import math
 
-from .collapse import ROLLING, Collapse
+from .collapse import ROLLING, Collapse, of_aspects
+from .sweep import Sweep
 
 TITLE = "C5 cylinder"
 RADIUS = 16
@@ -16,7 +17,9 @@ def lajeunesse(a):
     return 1.0 * a if a < 0.74 else 2.0 * math.sqrt(a)
 
 
-CYLINDER = Collapse("cylinder", RADIUS, {"impulse": (0.5, 1, 2, 4)}, {}, distance=lambda s: math.hypot(s.x, s.y),
+ASPECTS = (0.5, 1, 2, 4)
+SWEEPS = (Sweep(("impulse",), of_aspects(*ASPECTS)), Sweep(("bullet", "soft_sphere"), of_aspects(*ASPECTS[:3]), seeds=1))
+CYLINDER = Collapse("cylinder", RADIUS, ASPECTS, SWEEPS, distance=lambda s: math.hypot(s.x, s.y),
                     area=lambda i: math.pi / 4 * (2 * i + 1), settled=lambda a: 6 * math.sqrt(a * RADIUS / 9.81) + 4,
                     laws=(lube, lajeunesse), papers="Lube et al. (2004), Lajeunesse et al. (2004)", power=1 / 2)
 jobs, measure, rows = CYLINDER.jobs, CYLINDER.measure, CYLINDER.rows

@@ -4,7 +4,7 @@ import math
 
 from . import frames
 from .rows import Row, by_seed, row_of, with_settings
-from .runs import Job
+from .sweep import SOFT_STEP, Sweep, jobs_of
 
 TITLE = "C6 drum"
 RADIUS, GRAVITY, SETTLED = 12, 9.81, 30
@@ -12,18 +12,10 @@ TICK = 1 / math.sqrt(GRAVITY)
 DENSITY = 6 / math.pi
 TURNS = {0.01: 1, 0.03: 1.5, 0.1: 2}  # by Froude number
 CENTRIFUGES, AROUND = 3, 8            # a Froude number at which the innermost grains go round as well, and turns until all do
-STEPS = {"soft_sphere": (("step", 0.8e-3),)}
-
-
-def jobs(seeds):
-    for engine, ways in (("impulse", ("whole", "cut")), ("bullet", ("whole", "cut")), ("soft_sphere", ("whole",))):
-        for how in ways:
-            for froude, turns in TURNS.items() if engine == "impulse" else list(TURNS.items())[1:2]:
-                for seed in range(1, seeds + 1):
-                    yield Job("drum", engine, how, seed, (("froude", froude), ("turns", turns), *STEPS.get(engine, ())))
-            if engine == "impulse":
-                for seed in range(1, seeds + 1):
-                    yield Job("drum", engine, how, seed, (("froude", CENTRIFUGES), ("turns", AROUND)))
+RUNS = tuple((("froude", froude), ("turns", turns)) for froude, turns in (*TURNS.items(), (CENTRIFUGES, AROUND)))
+SWEEPS = (Sweep(("impulse",), RUNS), Sweep(("bullet", "soft_sphere"), RUNS[1:2]), Sweep(("bullet64", "ode"), RUNS[1:2], seeds=1),
+          Sweep(("bullet", "soft_sphere"), (RUNS[0], *RUNS[2:]), seeds=1))
+jobs = jobs_of("drum", SWEEPS, SOFT_STEP)
 
 
 def angular_momentum(spheres):

@@ -3,16 +3,20 @@
 import csv
 import glob
 import math
+import operator
 import os
+
+
+FIELDS = ("x", "y", "z", "radius", "vx", "vy", "vz", "wx", "wy", "wz")
 
 
 class Sphere:
     """Place, radius, velocity and spin; equal densities, so volumes stand for masses."""
+    __slots__ = ("x", "y", "z", "radius", "velocity", "spin")
 
-    def __init__(self, row):
-        self.x, self.y, self.z, self.radius = (float(row[k]) for k in ("x", "y", "z", "radius"))
-        self.velocity = tuple(float(row[k]) for k in ("vx", "vy", "vz"))
-        self.spin = tuple(float(row[k]) for k in ("wx", "wy", "wz"))
+    def __init__(self, *values):
+        self.x, self.y, self.z, self.radius = values[:4]
+        self.velocity, self.spin = values[4:7], values[7:]
 
     @property
     def volume(self):
@@ -37,7 +41,10 @@ def paths(folder):
 
 def read(path):
     with open(path) as f:
-        return [Sphere(row) for row in csv.DictReader(f)]
+        rows = csv.reader(f)
+        names = next(rows)
+        chosen = operator.itemgetter(*map(names.index, FIELDS))
+        return [Sphere(*map(float, chosen(row))) for row in rows]
 
 
 def last(folder):

@@ -2,26 +2,20 @@
 """How steep a heap is, on both sides, and whether it stays so."""
 from . import frames
 from .rows import Row, by_seed, row_of, with_settings
-from .runs import Job
+from .sweep import SOFT_STEP, Sweep, jobs_of
 
 TITLE = "C4 heap"
 D = 0.01
-STEPS = {"soft_sphere": (("step", 0.8e-3),)}
 ZHOU = "Zhou et al. (2002), glass beads: 27.4°"
 
 
-def jobs(seeds):
-    """With `impulse` the set-up of the paper is watched for long; all else only until it rests."""
-    for engine in ("impulse", "bullet", "soft_sphere"):
-        step = STEPS.get(engine, ())
-        for how in ("whole",) if engine == "soft_sphere" else ("whole", "cut"):
-            for seed in range(1, seeds + 1):
-                yield Job("heap", engine, how, seed, (("friction", 0.4), ("rest", 10 if engine == "impulse" else 0), *step))
-                if engine == "soft_sphere":
-                    yield Job("heap", engine, how, seed, (("friction", 0.4), ("rolling", 0.05), ("rest", 0), *step))
-                if engine == "impulse":
-                    for friction in (0, 0.2, 0.8) if how == "whole" else (0,):
-                        yield Job("heap", engine, how, seed, (("friction", friction), ("rest", 0)))
+WATCHED = (("friction", 0.4), ("rest", 10))
+RESTS = (("friction", 0.4), ("rest", 0))  # ends as soon as it rests: the angle alone
+ROLLS = (("friction", 0.4), ("rolling", 0.05), ("rest", 0))
+FRICTIONS = tuple((("friction", mu), ("rest", 0)) for mu in (0, 0.2, 0.8))
+SWEEPS = (Sweep(("impulse",), (WATCHED, *FRICTIONS)), Sweep(("bullet",), (WATCHED, FRICTIONS[0])), Sweep(("bullet64",), (RESTS,)),
+          Sweep(("soft_sphere",), (RESTS, ROLLS)), Sweep(("ode",), (WATCHED,)))
+jobs = jobs_of("heap", SWEEPS, SOFT_STEP)
 
 
 def slopes(spheres):

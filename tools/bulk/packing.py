@@ -4,23 +4,18 @@ import math
 
 from . import frames
 from .rows import Row, by_seed, row_of, with_settings
-from .runs import Job
+from .sweep import SOFT_STEP, Sweep, jobs_of
 
 TITLE = "C8 packing"
 WIDTH = 15      # of the box, diameters
 MARGIN = 3      # to walls, floor and surface that is left out, diameters
 TOUCH = 3e-4    # gap of a contact, at most, diameters
 TICKS = {0: 80, 0.5: 40, 10: 40}  # by friction: smooth spheres take longer to settle
-STEPS = {"bullet": (("step", 0.01),), "soft_sphere": (("step", 0.8e-3),)}
-
-
-def jobs(seeds):
-    for engine, how, frictions in (("impulse", "whole", TICKS), ("impulse", "cut", (0, 0.5)), ("bullet", "whole", (0.5,)),
-                                   ("soft_sphere", "whole", (0, 0.5))):
-        for friction in frictions:
-            for seed in range(1, seeds + 1):
-                settings = (("friction", friction), ("ticks", TICKS[friction]))
-                yield Job("packing", engine, how, seed, settings + STEPS.get(engine, ()))
+HALF = (("step", 0.01),)  # twice the scene's: small ones, for small overlaps, take long
+RUNS = tuple((("friction", mu), ("ticks", ticks)) for mu, ticks in TICKS.items())
+SWEEPS = (Sweep(("impulse",), RUNS), Sweep(("bullet",), RUNS[1:2]), Sweep(("bullet",), RUNS[:1], seeds=1), Sweep(("soft_sphere",), RUNS[:2]),
+          Sweep(("bullet64", "ode"), RUNS[1:2], seeds=1))
+jobs = jobs_of("packing", SWEEPS, {"bullet": HALF, "bullet64": HALF, "ode": HALF, **SOFT_STEP})
 
 
 def inner(spheres):

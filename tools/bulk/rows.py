@@ -3,7 +3,7 @@
 import dataclasses
 import statistics
 
-ENGINES = ("impulse", "bullet", "soft_sphere")
+ENGINES = ("impulse", "bullet", "bullet64", "soft_sphere", "ode")
 HOW = ("whole", "cut")
 
 

@@ -4,8 +4,8 @@ import math
 import statistics
 
 from . import frames
-from .rows import HOW, Row, twins
-from .runs import Job
+from .rows import Row, twins
+from .sweep import SOFT_STEP, Sweep, jobs_of
 
 TITLE = "C7 shear"
 BASES = (0.1, 0.3, 0.6)   # frictions of flat bases
@@ -15,14 +15,15 @@ GLASS = 20.9              # degrees, of slow flow
 GRAINS = "grains"         # instead of a base's friction: grains over grains
 
 
-def jobs(seeds):
+def over(*bases):
     """Four runs each: differences of work over the way are forces, differences of forces over the length have no ends."""
-    for how in HOW:
-        for base in (("rough", 1), *(("base", mu) for mu in BASES)):
-            for seed in range(1, seeds + 1):
-                for length in LENGTHS:
-                    for way in WAYS:
-                        yield Job("shear", "impulse", how, seed, (base, ("length", length), ("way", way)))
+    return tuple((base, ("length", length), ("way", way)) for base in bases for length in LENGTHS for way in WAYS)
+
+
+ROUGH = ("rough", 1)
+SWEEPS = (Sweep(("impulse",), over(ROUGH, *(("base", mu) for mu in BASES))),
+          Sweep(("bullet", "soft_sphere"), over(ROUGH, ("base", BASES[1])), seeds=1))
+jobs = jobs_of("shear", SWEEPS, SOFT_STEP)
 
 
 def measure(folder, summary, settings):
@@ -40,8 +41,8 @@ def angles(results):
 
 
 def grains(results):
-    """Mean friction angle of grains over grains, uncut [degrees]."""
-    return statistics.mean(angles(results)[GRAINS]["impulse", "whole"])
+    """Mean friction angle of grains over grains, uncut, by engine [degrees]."""
+    return {engine: statistics.mean(own) for (engine, how), own in angles(results).get(GRAINS, {}).items() if how == "whole"}
 
 
 def rows(results):

@@ -3,8 +3,8 @@
 import math
 
 from . import frames
-from .rows import HOW, Row, row_of, twins
-from .runs import Job
+from .rows import Row, row_of, twins
+from .sweep import SOFT_STEP, Sweep, jobs_of
 
 TITLE = "C2 silo"
 WIDTH, WALL_FRICTION = 10, 0.5
@@ -12,13 +12,10 @@ FILLS = (1, 2, 4)
 BETWEEN = (0.25, 0.75)  # how far the floor has sunk, diameters
 
 
-def jobs(seeds):
-    """Two runs each: what the floor does between two depths is the difference of its work."""
-    for how in HOW:
-        for fill in FILLS:
-            for seed in range(1, seeds + 1):
-                for sunk in BETWEEN:
-                    yield Job("silo", "impulse", how, seed, (("fill", fill), ("sunk", sunk)))
+# Two runs each: what the floor does between two depths is the difference of its work.
+RUNS = tuple((("fill", fill), ("sunk", sunk)) for fill in FILLS for sunk in BETWEEN)
+SWEEPS = (Sweep(("impulse",), RUNS), Sweep(("bullet", "soft_sphere", "bullet64", "ode"), RUNS, seeds=1))
+jobs = jobs_of("silo", SWEEPS, SOFT_STEP)
 
 
 def measure(folder, summary, settings):

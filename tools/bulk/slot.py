@@ -4,6 +4,7 @@ from .discharge import Discharge
 
 TITLE = "C3 slot"
 SLOT = Discharge("slot", (6, 8, 10), 3 / 2, settled=30, begin=4, window=4, depth=4, fill=((0, 12), (0, 4), (3, 15)),
-                 papers="Beverloo et al. (1961), Choi et al. (2005)", factor=("1.03: Nedderman (1992)", "", 0, 9))
+                 papers="Beverloo et al. (1961), Choi et al. (2005)", factor=("1.03: Nedderman (1992)", "", 0, 9),
+                 dear=("bullet", "soft_sphere", "bullet64", "ode"))
 jobs, measure, rows = SLOT.jobs, SLOT.measure, SLOT.rows
 CAUSES = []

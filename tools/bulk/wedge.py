@@ -3,19 +3,15 @@
 import math
 
 from . import frames
-from .rows import HOW, row_of, with_settings
-from .runs import Job
+from .rows import row_of, with_settings
+from .sweep import SOFT_STEP, Sweep, jobs_of
 
 TITLE = "C7 wedge"
 SETTLED, TICK = 40, 1 / math.sqrt(9.81)  # when the wall begins, in ticks
 
 
-def jobs(seeds):
-    for engine in ("impulse", "bullet"):
-        for how in HOW:
-            for rough in (0, 1):
-                for seed in range(1, seeds + 1):
-                    yield Job("wedge", engine, how, seed, (("rough", rough),))
+SWEEPS = (Sweep(("impulse", "bullet", "bullet64", "soft_sphere", "ode"), tuple((("rough", n),) for n in (0, 1))),)
+jobs = jobs_of("wedge", SWEEPS, SOFT_STEP)
 
 
 def slope(spheres, wall):
