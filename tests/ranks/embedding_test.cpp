@@ -21,18 +21,17 @@ std::vector<std::string> pieces(const std::string& text) {
   return lines;
 }
 
-std::vector<std::string> rod(const std::string& launch) {
-  const test::Ended ended =
-      test::shell("export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; " + launch + " " + MORAINE_ROD);
+std::vector<std::string> rod(int ranks) {
+  const test::Ended ended = test::shell(test::mpirun(ranks) + MORAINE_ROD);
   EXPECT_EQ(ended.status, 0) << ended.text;
   return pieces(ended.text);
 }
 
 TEST(Embedding, RodIsTheSameOnRanks) {
-  const std::vector<std::string> alone = rod("");
+  const std::vector<std::string> alone = rod(0);
   ASSERT_EQ(alone.size(), 3);
-  EXPECT_EQ(rod("mpirun --oversubscribe -np 2"), alone);
-  EXPECT_EQ(rod("mpirun --oversubscribe -np 3"), alone);
+  EXPECT_EQ(rod(2), alone);
+  EXPECT_EQ(rod(3), alone);
 }
 
 }  // namespace

@@ -25,10 +25,9 @@ class Mpi : public testing::Test {
   }
   void TearDown() override { fs::remove_all(out_); }
 
-  /// The shell's words for running dam on some ranks; 0: without mpirun.
+  /// The shell's words for running dam on some ranks, as mpirun() has it.
   std::string line(int ranks, const std::string& options) const {
-    const std::string launch = ranks == 0 ? "" : "mpirun --oversubscribe -np " + std::to_string(ranks) + " ";
-    return "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; " + launch + MORAINE_COMMAND + " run " +
+    return test::mpirun(ranks) + MORAINE_COMMAND + " run " +
            MORAINE_SOURCE_DIR
            "/apps/scenes/dam.yaml --set count=600 --sub-models 7 --threads 1 --quiet --set "
            "output.pictures=false --out " +

@@ -15,6 +15,13 @@ struct Ended {
   std::string text;  ///< of both streams
 };
 
+/// The shell's words before a program that is to run on so many ranks; 0: without mpirun.
+inline std::string mpirun(int ranks) {
+  if (ranks == 0) return "";
+  return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -np " +
+         std::to_string(ranks) + " ";
+}
+
 /// Runs a shell line in which `moraine` is the command under test, in an environment without MORAINE_ variables.
 inline Ended shell(const std::string& line) {
   const std::string whole =

@@ -76,4 +76,5 @@ def of_aspects(*aspects):
     return tuple((("aspect", a),) for a in aspects)
 
 
+CREEPING = ("motion left", "ode", "", "the slope creeps, as the heap of C4 does")
 ROLLING = ("motion left, a = 0.5", "", "", "one or two spheres still roll down the slope, 0.2 % of the little that falls")

@@ -64,10 +64,10 @@ class Discharge:
                       self.exponent - 0.25, self.exponent + 0.25)
             c.add(key, [sum(rates[s][key][n] / solids[s][key][n] / (s - EMPTY_ANNULUS) ** self.exponent for s in self.sizes)
                         / len(self.sizes) for n in seeds], low, high)
-        steady = Row("what passes later / earlier, all openings together", "1: not the fill decides", "± 0.03")
+        steady = Row("what passes later / earlier, less 1, all openings together", "0: not the fill decides", "± 0.03")
         late, early = (self.together(results, window) for window in ("late", "early"))
         for key in late:
-            steady.add(key, [a / b for a, b in zip(late[key], early[key])], 0.97, 1.03)
+            steady.add(key, [a / b - 1 for a, b in zip(late[key], early[key])], -0.03, 0.03)
         return [power, c, steady]
 
     @staticmethod
