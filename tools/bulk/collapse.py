@@ -6,24 +6,18 @@ from collections.abc import Callable
 
 from . import frames
 from .rows import Row, by_seed, with_settings
-from .sweep import jobs_of
 
 
 @dataclasses.dataclass(frozen=True)
 class Collapse:
-    case: str
     length: float          # of what stands, from the wall or the axis, diameters
     aspects: tuple         # heights / length
-    sweeps: tuple
     distance: Callable     # of a sphere from the wall or the axis
     area: Callable         # of the floor in slice n of one diameter
     settled: Callable      # of the aspect: time at which the support goes [s]
     laws: tuple            # run-out / length of the aspect, by different experiments
     papers: str
     power: float           # of the aspect, for tall ones
-
-    def jobs(self, seeds):
-        return jobs_of(self.case, self.sweeps, {"soft_sphere": (("dt", 5e-4),)})(seeds)
 
     def measure(self, folder, summary, settings):
         kinetic, standing, spheres = [], None, []

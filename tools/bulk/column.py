@@ -3,7 +3,7 @@
 import math
 
 from .collapse import CREEPING, ROLLING, Collapse, of_aspects
-from .sweep import Sweep
+from .sweep import Sweep, jobs_of
 
 TITLE = "C5 column"
 LENGTH, WIDTH = 20, 4
@@ -18,12 +18,12 @@ def lajeunesse(a):
 
 
 LOW, HIGH = of_aspects(0.5, 1), of_aspects(2, 4)
-SWEEPS = (Sweep(("impulse", "bullet", "bullet64", "soft_sphere", "ode"), LOW), Sweep(("impulse",), HIGH),
-          Sweep(("bullet",), HIGH, seeds=1), Sweep(("soft_sphere",), HIGH[:1], seeds=1))
-COLUMN = Collapse("column", LENGTH, (0.5, 1, 2, 4), SWEEPS, distance=lambda s: s.x, area=lambda i: WIDTH,
+jobs = jobs_of("column", Sweep(("impulse", "bullet", "bullet64", "soft_sphere", "ode"), LOW), Sweep(("impulse",), HIGH),
+               Sweep(("bullet",), HIGH, seeds=1), Sweep(("soft_sphere",), HIGH[:1], seeds=1), steps={"soft_sphere": (("dt", 5e-4),)})
+COLUMN = Collapse(LENGTH, (0.5, 1, 2, 4), distance=lambda s: s.x, area=lambda i: WIDTH,
                   settled=lambda a: 4 * math.sqrt(a * LENGTH / 9.81) + 4, laws=(lube, lajeunesse),
                   papers="Lube et al. (2005), Lajeunesse et al. (2005)", power=2 / 3)
-jobs, measure, rows = COLUMN.jobs, COLUMN.measure, COLUMN.rows
+measure, rows = COLUMN.measure, COLUMN.rows
 
 CAUSES = [
     ("exponent", "", "", "smooth walls make it a wide channel, for which Balmforth & Kerswell (2005) find 0.9 ± 0.1, and 0.65 ± 0.05 for a narrow one; "

@@ -5,7 +5,6 @@ import math
 
 from . import frames
 from .rows import Row, by_seed, with_settings
-from .sweep import SOFT_STEP, Sweep, jobs_of
 
 TICK = 1 / math.sqrt(9.81)
 EMPTY_ANNULUS = 1.4        # k: as much of the opening lets nothing through, in grains
@@ -24,11 +23,10 @@ class Discharge:
     papers: str            # that say what the exponent is
     factor: tuple          # C: what it should be, its tolerance, and both as numbers
 
-    dear: tuple            # engines that run one seed
 
-    def jobs(self, seeds):
-        runs = tuple(((self.opening, size), ("flowing", self.begin + 2 * self.window + 1)) for size in self.sizes)
-        return jobs_of(self.opening, (Sweep(("impulse",), runs), Sweep(self.dear, runs, seeds=1)), SOFT_STEP)(seeds)
+    def runs(self):
+        """Their settings."""
+        return tuple(((self.opening, size), ("flowing", self.begin + 2 * self.window + 1)) for size in self.sizes)
 
     def measure(self, folder, summary, settings):
         passed, solid = [], 0

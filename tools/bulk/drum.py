@@ -4,7 +4,7 @@ import math
 
 from . import frames
 from .rows import Row, by_seed, row_of, with_settings
-from .sweep import SOFT_STEP, Sweep, jobs_of
+from .sweep import Sweep, jobs_of
 
 TITLE = "C6 drum"
 RADIUS, GRAVITY, SETTLED = 12, 9.81, 30
@@ -13,9 +13,8 @@ DENSITY = 6 / math.pi
 TURNS = {0.01: 1, 0.03: 1.5, 0.1: 2}  # by Froude number
 CENTRIFUGES, AROUND = 3, 8            # a Froude number at which the innermost grains go round as well, and turns until all do
 RUNS = tuple((("froude", froude), ("turns", turns)) for froude, turns in (*TURNS.items(), (CENTRIFUGES, AROUND)))
-SWEEPS = (Sweep(("impulse",), RUNS), Sweep(("bullet", "soft_sphere"), RUNS[1:2]), Sweep(("bullet64", "ode"), RUNS[1:2], seeds=1),
-          Sweep(("bullet", "soft_sphere"), (RUNS[0], *RUNS[2:]), seeds=1))
-jobs = jobs_of("drum", SWEEPS, SOFT_STEP)
+jobs = jobs_of("drum", Sweep(("impulse",), RUNS), Sweep(("bullet", "soft_sphere"), RUNS[1:2]), Sweep(("bullet64", "ode"), RUNS[1:2], seeds=1),
+               Sweep(("bullet", "soft_sphere"), (RUNS[0], *RUNS[2:]), seeds=1))
 
 
 def angular_momentum(spheres):

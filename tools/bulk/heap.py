@@ -2,7 +2,7 @@
 """How steep a heap is, on both sides, and whether it stays so."""
 from . import frames
 from .rows import Row, by_seed, row_of, with_settings
-from .sweep import SOFT_STEP, Sweep, jobs_of
+from .sweep import Sweep, jobs_of
 
 TITLE = "C4 heap"
 D = 0.01
@@ -13,9 +13,8 @@ WATCHED = (("friction", 0.4), ("rest", 10))
 RESTS = (("friction", 0.4), ("rest", 0))  # ends as soon as it rests: the angle alone
 ROLLS = (("friction", 0.4), ("rolling", 0.05), ("rest", 0))
 FRICTIONS = tuple((("friction", mu), ("rest", 0)) for mu in (0, 0.2, 0.8))
-SWEEPS = (Sweep(("impulse",), (WATCHED, *FRICTIONS)), Sweep(("bullet",), (WATCHED, FRICTIONS[0])), Sweep(("bullet64",), (RESTS,)),
-          Sweep(("soft_sphere",), (RESTS, ROLLS)), Sweep(("ode",), (WATCHED,)))
-jobs = jobs_of("heap", SWEEPS, SOFT_STEP)
+jobs = jobs_of("heap", Sweep(("impulse",), (WATCHED, *FRICTIONS)), Sweep(("bullet",), (WATCHED, FRICTIONS[0])), Sweep(("bullet64",), (RESTS,)),
+               Sweep(("soft_sphere",), (RESTS, ROLLS)), Sweep(("ode",), (WATCHED,)))
 
 
 def slopes(spheres):

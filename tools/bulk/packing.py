@@ -11,11 +11,11 @@ WIDTH = 15      # of the box, diameters
 MARGIN = 3      # to walls, floor and surface that is left out, diameters
 TOUCH = 3e-4    # gap of a contact, at most, diameters
 TICKS = {0: 80, 0.5: 40, 10: 40}  # by friction: smooth spheres take longer to settle
-HALF = (("step", 0.01),)  # twice the scene's: small ones, for small overlaps, take long
+COARSE = (("step", 0.01),)  # twice the scene's: small ones, for small overlaps, take long
 RUNS = tuple((("friction", mu), ("ticks", ticks)) for mu, ticks in TICKS.items())
-SWEEPS = (Sweep(("impulse",), RUNS), Sweep(("bullet",), RUNS[1:2]), Sweep(("bullet",), RUNS[:1], seeds=1), Sweep(("soft_sphere",), RUNS[:2]),
-          Sweep(("bullet64", "ode"), RUNS[1:2], seeds=1))
-jobs = jobs_of("packing", SWEEPS, {"bullet": HALF, "bullet64": HALF, "ode": HALF, **SOFT_STEP})
+jobs = jobs_of("packing", Sweep(("impulse",), RUNS), Sweep(("bullet",), RUNS[1:2]), Sweep(("bullet",), RUNS[:1], seeds=1),
+               Sweep(("soft_sphere",), RUNS[:2]), Sweep(("bullet64", "ode"), RUNS[1:2], seeds=1),
+               steps={"bullet": COARSE, "bullet64": COARSE, "ode": COARSE, **SOFT_STEP})
 
 
 def inner(spheres):

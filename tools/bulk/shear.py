@@ -5,7 +5,7 @@ import statistics
 
 from . import frames
 from .rows import Row, twins
-from .sweep import SOFT_STEP, Sweep, jobs_of
+from .sweep import Sweep, jobs_of
 
 TITLE = "C7 shear"
 BASES = (0.1, 0.3, 0.6)   # frictions of flat bases
@@ -13,17 +13,10 @@ WAYS = (4, 12)            # of the base, diameters: what happens between them co
 LENGTHS = (16, 24)        # of the bed, diameters: what the longer has more counts, both have the same ends
 GLASS = 20.9              # degrees, of slow flow
 GRAINS = "grains"         # instead of a base's friction: grains over grains
-
-
-def over(*bases):
-    """Four runs each: differences of work over the way are forces, differences of forces over the length have no ends."""
-    return tuple((base, ("length", length), ("way", way)) for base in bases for length in LENGTHS for way in WAYS)
-
-
-ROUGH = ("rough", 1)
-SWEEPS = (Sweep(("impulse",), over(ROUGH, *(("base", mu) for mu in BASES))),
-          Sweep(("bullet", "soft_sphere"), over(ROUGH, ("base", BASES[1])), seeds=1))
-jobs = jobs_of("shear", SWEEPS, SOFT_STEP)
+# Four runs each: differences of work over the way are forces, differences of forces over the length have no ends.
+RUNS = tuple((base, ("length", length), ("way", way)) for base in (("rough", 1), *(("base", mu) for mu in BASES))
+             for length in LENGTHS for way in WAYS)
+jobs = jobs_of("shear", Sweep(("impulse",), RUNS))
 
 
 def measure(folder, summary, settings):
@@ -41,8 +34,8 @@ def angles(results):
 
 
 def grains(results):
-    """Mean friction angle of grains over grains, uncut, by engine [degrees]."""
-    return {engine: statistics.mean(own) for (engine, how), own in angles(results).get(GRAINS, {}).items() if how == "whole"}
+    """Mean friction angle of grains over grains, uncut [degrees]."""
+    return statistics.mean(angles(results)[GRAINS]["impulse", "whole"])
 
 
 def rows(results):

@@ -4,18 +4,20 @@ import math
 
 from . import frames
 from .rows import Row, row_of, twins
-from .sweep import SOFT_STEP, Sweep, jobs_of
+from .sweep import Sweep, jobs_of
 
 TITLE = "C2 silo"
 WIDTH, WALL_FRICTION = 10, 0.5
 FILLS = (1, 2, 4)
 BETWEEN = (0.25, 0.75)  # how far the floor has sunk, diameters
 
-
 # Two runs each: what the floor does between two depths is the difference of its work.
 RUNS = tuple((("fill", fill), ("sunk", sunk)) for fill in FILLS for sunk in BETWEEN)
-SWEEPS = (Sweep(("impulse",), RUNS), Sweep(("bullet", "bullet64", "soft_sphere", "ode"), RUNS, seeds=1))
-jobs = jobs_of("silo", SWEEPS, SOFT_STEP)
+# What walls carry leaks at the cuts of these engines: their default of 0.85 leaves 0.32 of a fill of 4 widths to the floor.
+BULLETS = ("bullet", "bullet64")
+HOLDING = tuple((*run, ("run.coupling_leak", 0.97)) for run in RUNS)
+jobs = jobs_of("silo", Sweep(("impulse",), RUNS), Sweep(("soft_sphere", "ode"), RUNS, seeds=1),
+               Sweep(BULLETS, RUNS, seeds=1, ways=("whole",)), Sweep(BULLETS, HOLDING, seeds=1, ways=("cut",)))
 
 
 def measure(folder, summary, settings):
@@ -68,6 +70,5 @@ def rows(results):
     yield row_of("floor and walls / weight, less 1", "0", "± 0.03", results, lambda r: r["carried"] - 1, -0.03, 0.03)
 
 
-LEAKS = "its `coupling_leak` of 0.85 lets go of what walls carry: with 0.97 the floor has 0.233 of the weight of a fill of 4 widths, whole 0.227"
 CREEPS = "friction at the walls creeps as in the heap of C4, so they carry less"
-CAUSES = [(row, engine, how, cause) for row in ("pressure", "K =") for engine, how, cause in (("bullet", "cut", LEAKS), ("ode", "", CREEPS))]
+CAUSES = [("pressure", "ode", "", CREEPS), ("K =", "ode", "", CREEPS)]

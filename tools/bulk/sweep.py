@@ -14,14 +14,15 @@ class Sweep:
     engines: tuple
     settings: tuple          # of each run: pairs of parameter and value
     seeds: float = math.inf  # at most: one where an engine is dear
+    ways: tuple = tuple(SUB_MODELS)
 
 
-def jobs_of(case, sweeps, steps):
+def jobs_of(case, *sweeps, steps=SOFT_STEP):
     """A function from the number of seeds to the jobs; `steps` has settings that an engine needs in all of them."""
     def jobs(seeds):
         for sweep in sweeps:
             for engine in sweep.engines:
-                for how in ("whole",) if engine in UNCUT else SUB_MODELS:
+                for how in ("whole",) if engine in UNCUT else sweep.ways:
                     for settings in sweep.settings:
                         for seed in range(1, min(seeds, sweep.seeds) + 1):
                             yield Job(case, engine, how, seed, (*settings, *steps.get(engine, ())))
