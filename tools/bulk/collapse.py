@@ -65,10 +65,4 @@ class Collapse:
         return row
 
 
-def of_aspects(*aspects):
-    """Settings of a run each."""
-    return tuple((("aspect", a),) for a in aspects)
-
-
-CREEPING = ("motion left", "ode", "", "the slope creeps, as the heap of C4 does")
 ROLLING = ("motion left, a = 0.5", "", "", "one or two spheres still roll down the slope, 0.2 % of the little that falls")

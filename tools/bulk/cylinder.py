@@ -2,8 +2,8 @@
 """A cylinder, of which a quarter stands between two smooth walls."""
 import math
 
-from .collapse import ROLLING, Collapse, of_aspects
-from .sweep import Sweep, jobs_of
+from .collapse import ROLLING, Collapse
+from .sweep import Sweep, each, jobs_of
 
 TITLE = "C5 cylinder"
 RADIUS = 16
@@ -18,7 +18,7 @@ def lajeunesse(a):
 
 
 ASPECTS = (0.5, 1, 2, 4)
-jobs = jobs_of("cylinder", Sweep(("impulse",), of_aspects(*ASPECTS)))
+jobs = jobs_of("cylinder", Sweep(("impulse",), each("aspect", *ASPECTS)))
 CYLINDER = Collapse(RADIUS, ASPECTS, distance=lambda s: math.hypot(s.x, s.y),
                     area=lambda i: math.pi / 4 * (2 * i + 1), settled=lambda a: 6 * math.sqrt(a * RADIUS / 9.81) + 4,
                     laws=(lube, lajeunesse), papers="Lube et al. (2004), Lajeunesse et al. (2004)", power=1 / 2)

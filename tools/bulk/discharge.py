@@ -23,7 +23,6 @@ class Discharge:
     papers: str            # that say what the exponent is
     factor: tuple          # C: what it should be, its tolerance, and both as numbers
 
-
     def runs(self):
         """Their settings."""
         return tuple(((self.opening, size), ("flowing", self.begin + 2 * self.window + 1)) for size in self.sizes)

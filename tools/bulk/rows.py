@@ -3,8 +3,9 @@
 import dataclasses
 import statistics
 
+from .runs import SUB_MODELS
+
 ENGINES = ("impulse", "bullet", "bullet64", "soft_sphere", "ode")
-HOW = ("whole", "cut")
 
 
 def by_seed(results, value):
@@ -57,7 +58,7 @@ class Row:
         return f"**{text}**" if self.missed(key) else text
 
     def cell(self, engine):
-        return " / ".join(self.figure((engine, how)) for how in HOW if (engine, how) in self.values)
+        return " / ".join(self.figure((engine, how)) for how in SUB_MODELS if (engine, how) in self.values)
 
     def misses(self):
         return [key for key in self.values if self.missed(key)]

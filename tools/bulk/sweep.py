@@ -17,6 +17,11 @@ class Sweep:
     ways: tuple = tuple(SUB_MODELS)
 
 
+def each(parameter, *values):
+    """Settings of runs that differ by one parameter."""
+    return tuple(((parameter, value),) for value in values)
+
+
 def jobs_of(case, *sweeps, steps=SOFT_STEP):
     """A function from the number of seeds to the jobs; `steps` has settings that an engine needs in all of them."""
     def jobs(seeds):

@@ -4,14 +4,13 @@ import math
 
 from . import frames, shear
 from .rows import Row, by_seed, with_settings
-from .sweep import Sweep, jobs_of
+from .sweep import Sweep, each, jobs_of
 
 TITLE = "C7 taper"
 LENGTH, PUSHED, SETTLED, TICK = 260, 70, 20, 1 / math.sqrt(9.81)
 BESIDE = ("shear",)     # the case that says which friction angle the grains have
 
-
-jobs = jobs_of("taper", Sweep(("impulse",), tuple((("base", mu),) for mu in shear.BASES)))
+jobs = jobs_of("taper", Sweep(("impulse",), each("base", *shear.BASES)))
 
 
 def critical(inner, base):

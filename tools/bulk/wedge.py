@@ -3,14 +3,13 @@
 import math
 
 from . import frames
-from .rows import row_of, with_settings
-from .sweep import Sweep, jobs_of
+from .rows import ENGINES, row_of, with_settings
+from .sweep import Sweep, each, jobs_of
 
 TITLE = "C7 wedge"
 SETTLED, TICK = 40, 1 / math.sqrt(9.81)  # when the wall begins, in ticks
 
-
-jobs = jobs_of("wedge", Sweep(("impulse", "bullet", "bullet64", "soft_sphere", "ode"), tuple((("rough", n),) for n in (0, 1))))
+jobs = jobs_of("wedge", Sweep(ENGINES, each("rough", 0, 1)))
 
 
 def slope(spheres, wall):

@@ -106,11 +106,10 @@ constexpr Angle sticking[] = {{10, 0.687}, {15, 0.624}, {20, 0.616}, {25, 0.634}
 
 struct Glance {
   double surface = 0;  ///< of v_t' / v_t and, where it is known, the spin
-  double budgets =
-      0;  ///< of v_n' / v_n and angular momentum about the point of contact, which the overlap changes a little
+  double budgets = 0;  ///< of v_n' / v_n and angular momentum about the point of contact
 };
 
-/// Test 4: errors.
+/// Test 4: errors. The overlap changes angular momentum a little.
 Glance glance(const Setting& s, const Angle& a) {
   const double angle = a.degrees * std::numbers::pi / 180, vt = 3.9 * std::sin(angle), vn = 3.9 * std::cos(angle);
   const Twist t = oxide_ball(s, "friction: 0.092, restitution: 0.98", a.degrees).twist;
