@@ -223,13 +223,21 @@ runtime::EpochPlan CoupledModel::begin_epoch(std::int64_t next_round, std::int64
   const bool restored = next_round == epoch_begin_ && next_round < epoch_end_;
   const bool interrupted = !restored && next_round < epoch_end_;
   if (interrupted) {
+    if (next_round == marked_round()) accounts_.mark(reports(), next_round);
     for (const auto& part : sub_models_)
       if (part) part->go_on();
   } else if (!restored) {
     epoch_begin_ = next_round;
     open_epoch();
   }
-  return {std::min(at_most, epoch_end_ - next_round), !interrupted && !restored};
+  const std::int64_t until_mark = marked_round() - next_round;
+  return {std::min({at_most, epoch_end_ - next_round, until_mark > 0 ? until_mark : at_most}),
+          !interrupted && !restored};
+}
+
+std::int64_t CoupledModel::marked_round() const {
+  const TimeSettings& time = scene().time;
+  return std::llround(averaged_from * static_cast<double>(time.steps * time.substeps));
 }
 
 void CoupledModel::conclude(std::int64_t round) { look(round, overlaps().max); }
@@ -238,10 +246,8 @@ std::vector<Report> CoupledModel::look(std::int64_t round, double overlap) {
   context_.enclosure.move(static_cast<double>(round) * context_.world.substep);
   std::vector<Report> now = reports();
   accounts_.note_extremes(now);
-  const TimeSettings& time = scene().time;
-  if (static_cast<double>(round) <= averaged_from * static_cast<double>(time.steps * time.substeps))
-    accounts_.mark(now, round);
-  guard_log_.look(watch(now, overlap), round / time.substeps);
+  if (round <= marked_round()) accounts_.mark(now, round);
+  guard_log_.look(watch(now, overlap), round / scene().time.substeps);
   return now;
 }
 

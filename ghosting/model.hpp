@@ -77,6 +77,8 @@ class CoupledModel : public runtime::Model {
   std::vector<ContactMemory> contact_memory() const;
   std::vector<std::vector<ContactMemory>> by_part(std::span<const ContactMemory> memory) const;
   void open_epoch();
+  /// Boundary forces are averaged from there on.
+  std::int64_t marked_round() const;
   /// Takes account of everything, and lets the guards look. Errors: InvalidStateError, on all ranks.
   std::vector<Report> look(std::int64_t round, double overlap = 0);
   Watch watch(const std::vector<Report>& now, double overlap);

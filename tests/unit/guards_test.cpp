@@ -89,6 +89,16 @@ TEST(BoundaryForce, IsTheWeightOfWhatRests) {
   }
 }
 
+/// What landed before the last fifth of the run does not count, however long epochs are.
+TEST(BoundaryForce, IsAMeanOverTheLastFifth) {
+  const std::string scene = spheres("{id: 1, at: [0, 0, 0.12], velocity: [0, 0, -1]}", "restitution: 0", floor_at_zero);
+  for (const EngineStep& e : engine_steps) {
+    ModelRun run(scene_of(scene, with(e, 0.06)));
+    run.go();
+    EXPECT_NEAR(run.model().statistics(run.scene().time.steps).boundary_force.z(), 9.81, 1e-2 * 9.81) << e.engine;
+  }
+}
+
 const std::string box = "boundaries: [{box: [[-1, -1, -1], [1, 1, 1]], triangulated: true}]\n";
 
 TEST(Guards, WarnOfTunnellingBeforeItHappens) {
@@ -101,16 +111,15 @@ TEST(Guards, WarnOfTunnellingBeforeItHappens) {
   EXPECT_TRUE(mentions(texts, "at least 2 substeps")) << texts[0];
 }
 
+/// In a step it goes from 0.17 m before the wall to 0.17 m behind it: engines do not look that far ahead.
 TEST(Guards, StopWhenAnElementHasLeftItsContainer) {
   const std::string scene =
-      spheres("{id: 4, at: [0.05, 0, 0], velocity: [90, 0, 0]}", "restitution: 1", weightless + box);
+      spheres("{id: 4, at: [0.19, 0, 0], velocity: [90, 0, 0]}", "restitution: 1", weightless + box);
   for (const char* engine : {"bullet", "impulse"}) {
     ModelRun run(scene_of(scene, {set("dt", 6e-3), set("run.engine", engine)}));
     try {
       run.steps(64);
-      run.conclude();
-      // It may also have bounced all the time.
-      EXPECT_LT(run.position(4).cwiseAbs().maxCoeff(), 1) << engine;
+      ADD_FAILURE() << engine << ": it is at " << run.position(4).x() << " m";
     } catch (const InvalidStateError& e) {
       EXPECT_NE(std::string(e.what()).find("escape: element 4"), std::string::npos) << e.what();
     }
@@ -187,7 +196,7 @@ TEST(GuardLog, WarnsOnceCountsAndStops) {
   watch.extremes.beyond = {};
   accounts.kinetic_max = 1;
   accounts.gained = 0.17;
-  EXPECT_NO_THROW(log.look(watch, 4)) << "as an elastic impact across a cut";
+  EXPECT_NO_THROW(log.look(watch, 4)) << "a sixth of all energy";
   EXPECT_TRUE(mentions(log.warnings(context), "energy: "));
   accounts.gained = 0.5;
   EXPECT_THROW(log.look(watch, 4), InvalidStateError) << "half of all energy came from nowhere";
