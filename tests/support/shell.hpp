@@ -26,7 +26,7 @@ inline std::string mpirun(int ranks) {
 inline Ended shell(const std::string& line) {
   const std::string whole =
       "for v in $(env | sed -n 's/^\\(MORAINE_[A-Z_]*\\)=.*/\\1/p'); do unset $v; done; moraine() { " +
-      std::string(MORAINE_COMMAND) + " \"$@\"; }; { " + line + "; } 2>&1";
+      std::string(MORAINE_COMMAND) + " \"$@\"; }; { " + line + "\n} 2>&1";
   FILE* pipe = ::popen(whole.c_str(), "r");
   Ended ended;
   std::array<char, 4096> buffer;
