@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <iostream>
 
 #include "output/file.hpp"
 #include "output/label.hpp"
 #include "physics/errors.hpp"
+#include "physics/plugin.hpp"
 #include "study/process.hpp"
 
 namespace moraine::study {
@@ -20,12 +21,15 @@ using Clock = std::chrono::steady_clock;
 
 std::string hash_of(std::string_view text) { return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size())); }
 
-void check_writable(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::ofstream(folder / ".writable"))
-    throw InputError(fmt::format("{}: cannot write there, expected a folder for results (--out)", folder.string()));
-  std::filesystem::remove(folder / ".writable", error);
+/// Of the program and of the engines' libraries that it would load.
+std::string hash_of_program(const std::filesystem::path& program) {
+  std::string all = read_file(program);
+  for (const Engine& engine : engines()) {
+    const auto places = plugin_places(engine.name);
+    const auto library = std::find_if(places.begin(), places.end(), [](const auto& p) { return exists(p); });
+    if (library != places.end()) all += read_file(*library);
+  }
+  return hash_of(all);
 }
 
 Override split_at_equals(const std::string& text) {
@@ -45,8 +49,9 @@ std::string trimmed(std::string text) {
 /// One call of run().
 class Laboratory::Batch {
  public:
-  Batch(Laboratory& lab, const Subject& subject, const std::vector<Trial>& trials) : lab_(lab), trials_(trials) {
-    for (const Trial& t : trials) prepare(subject, t);
+  Batch(Laboratory& lab, const Subject& subject, const std::vector<Trial>& trials)
+      : lab_(lab), subject_(subject), trials_(trials) {
+    for (const Trial& t : trials) prepare(t);
   }
 
   std::vector<Record> go() {
@@ -58,21 +63,31 @@ class Laboratory::Batch {
   }
 
  private:
-  void prepare(const Subject& subject, const Trial& t) {
-    std::vector<Override> overrides = subject.overrides(*t.setting, t.seed);
-    overrides.push_back({"run.threads", std::to_string(lab_.options_.threads), "the study"});
-    Record r;
-    r.command = command_line(subject.file(), overrides);
-    r.identity = t.setting->identity + "-" + lab_.program_hash_;
-    r.at_once = lab_.options_.at_once;
+  void prepare(const Trial& t) {
+    const Record r = begun(*t.setting, t.seed, lab_.program_hash_);
     const std::filesystem::path path = lab_.options_.folder / "runs" / (t.setting->engine + "-" + hash_of(r.command));
     const std::optional<Record> found = read_record(path.string() + ".json");
-    if (found && found->identity != r.identity) ++outdated_;
-    const bool usable = found && found->identity == r.identity && found->final();
+    const bool same = found && found->identity == r.identity && found->at_once == r.at_once;
+    if (found && !same) ++outdated_;
+    const bool usable = same && found->final();
     if (!usable) missing_.push_back(records_.size());
     records_.push_back(usable ? *found : r);
     paths_.push_back(path);
-    arguments_.push_back(arguments(subject.file(), overrides, path));
+    arguments_.push_back(arguments(subject_.file(), overrides(*t.setting, t.seed), path));
+  }
+
+  Record begun(const Setting& setting, int seed, const std::string& program) const {
+    Record r;
+    r.command = command_line(subject_.file(), overrides(setting, seed));
+    r.identity = setting.identity + "-" + program;
+    r.at_once = lab_.options_.at_once;
+    return r;
+  }
+
+  std::vector<Override> overrides(const Setting& setting, int seed) const {
+    std::vector<Override> all = subject_.overrides(setting, seed);
+    all.push_back({"run.threads", std::to_string(lab_.options_.threads), "the study"});
+    return all;
   }
 
   std::vector<std::string> arguments(const std::string& file, std::vector<Override> overrides,
@@ -95,13 +110,27 @@ class Laboratory::Batch {
 
   void announce() const {
     if (outdated_ > 0)
-      say(fmt::format("{} finished runs are of another version of the scene or the program; they are repeated",
-                      outdated_));
+      say(
+          fmt::format("{} finished runs are of another version of the scene or the program, or were not made {} at a "
+                      "time; they are repeated",
+                      outdated_, lab_.options_.at_once));
     const std::size_t found = trials_.size() - missing_.size();
     if (found > 0) say(fmt::format("{} of {} runs are there already", found, trials_.size()));
   }
 
+  /// A run that began with another scene or program than the study must not pass for one of it.
+  void check_unchanged(std::size_t i) const {
+    const Setting setting = subject_.resolve(trials_[i].setting->choices);
+    const Record now = begun(setting, trials_[i].seed, hash_of_program(lab_.options_.program));
+    if (now.identity != records_[i].identity || now.command != records_[i].command)
+      throw InputError(
+          fmt::format("{}: the scene or the program has changed since the study began; begin it again, "
+                      "what it had finished before is kept",
+                      subject_.file()));
+  }
+
   void finish(std::size_t i, int status) {
+    check_unchanged(i);
     Record& r = records_[i];
     const std::filesystem::path errors = paths_[i].string() + ".errors";
     r.status = status;
@@ -127,6 +156,7 @@ class Laboratory::Batch {
   }
 
   Laboratory& lab_;
+  const Subject& subject_;
   const std::vector<Trial>& trials_;
   std::vector<Record> records_;
   std::vector<std::filesystem::path> paths_;  ///< of the trials' results, without ending
@@ -137,8 +167,8 @@ class Laboratory::Batch {
 };
 
 Laboratory::Laboratory(LaboratoryOptions options)
-    : options_(std::move(options)), program_hash_(hash_of(read_file(options_.program))) {
-  check_writable(options_.folder / "runs");
+    : options_(std::move(options)), lock_(options_.folder), program_hash_(hash_of_program(options_.program)) {
+  make_folder(options_.folder / "runs");
 }
 
 std::vector<Record> Laboratory::run(const Subject& subject, const std::vector<Trial>& trials) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "study/folder_lock.hpp"
 #include "study/record.hpp"
 #include "study/subject.hpp"
 
@@ -26,11 +27,12 @@ struct Trial {
 
 class Laboratory {
  public:
-  /// Errors: InputError if the folder cannot be written.
+  /// Errors: InputError if the folder cannot be written, or if another study writes there.
   explicit Laboratory(LaboratoryOptions options);
 
-  /// Runs the trials that no file has for this very scene, setting, seed and program; says on standard error how far
-  /// it is, and how many files were of another scene or program. Records in the order of the trials.
+  /// Runs the trials that no file has for this very scene, setting, seed, program, engine libraries and number of runs
+  /// at the same time; says on standard error how far it is, and how many files were of others. Records in the order of
+  /// the trials. Errors: InputError if the scene or the program changes meanwhile.
   std::vector<Record> run(const Subject& subject, const std::vector<Trial>& trials);
 
   int runs_made() const { return runs_made_; }
@@ -40,6 +42,7 @@ class Laboratory {
  private:
   class Batch;
   LaboratoryOptions options_;
+  FolderLock lock_;
   std::string program_hash_;
   int runs_made_ = 0;
   double cpu_seconds_ = 0;  ///< in the steps of the runs made

@@ -20,7 +20,9 @@ namespace {
 
 constexpr int cannot_execute = 127;
 
+/// Options of this command, and what tells a rank of mpirun who it is, are not for those that it starts.
 bool kept(std::string_view variable) {
+  if (variable.starts_with("MORAINE_ENGINES=")) return true;
   for (const std::string_view prefix : {"MORAINE_", "OMPI_COMM_WORLD_", "PMIX_", "PMI_"})
     if (variable.starts_with(prefix)) return false;
   return true;
