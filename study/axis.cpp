@@ -26,8 +26,10 @@ bool contains(const std::vector<std::string>& list, const std::string& value) {
   return std::find(list.begin(), list.end(), value) != list.end();
 }
 
+/// By its short name or its whole key.
 Axis* find(AxisBlock& block, std::string_view name) {
-  const auto found = std::find_if(block.begin(), block.end(), [&](const Axis& a) { return a.key == name; });
+  const std::string key = key_of(name);
+  const auto found = std::find_if(block.begin(), block.end(), [&](const Axis& a) { return key_of(a.key) == key; });
   return found == block.end() ? nullptr : &*found;
 }
 
@@ -36,7 +38,7 @@ void narrow_engines(std::vector<AxisBlock>& blocks, const Axis& engines) {
   std::vector<std::string> missing = engines.values;
   for (AxisBlock& block : blocks) {
     Axis* own = find(block, "engine");
-    if (!own) continue;
+    if (!own) own = &block.emplace_back(engines);
     std::erase_if(own->values, [&](const std::string& e) { return !contains(engines.values, e); });
     if (own->values.empty()) continue;
     std::erase_if(missing, [&](const std::string& e) { return contains(own->values, e); });
@@ -84,9 +86,10 @@ std::vector<Choices> combinations(std::span<const AxisBlock> blocks) {
 }
 
 void narrow(std::vector<AxisBlock>& blocks, const Axis& axis) {
-  if (axis.key == "engine") return narrow_engines(blocks, axis);
+  const std::string key = key_of(axis.key);
+  if (key == "run.engine") return narrow_engines(blocks, axis);
   for (AxisBlock& block : blocks) {
-    if (axis.key == "substeps") std::erase_if(block, [](const Axis& a) { return a.key == limit_share; });
+    if (key == "time.substeps") std::erase_if(block, [](const Axis& a) { return a.key == limit_share; });
     if (Axis* own = find(block, axis.key)) {
       *own = axis;
     } else {

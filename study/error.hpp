@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,8 +33,9 @@ struct Error {
   double low = 0;     ///< it is at least so much, and
   double high = 0;    ///< at most so much
   std::string worst;  ///< observable
-  /// The error, or its uncertainty if that is more: what is distinguishable from the reference.
-  double resolved() const { return std::max(value, high - value); }
+  /// The error, or its uncertainty if that is more: what is distinguishable from the reference. Of single runs, whose
+  /// uncertainty is not known, the error.
+  double resolved() const { return std::isfinite(high) ? std::max(value, high - value) : value; }
 };
 Error error_of(std::span<const Comparison> comparisons);
 

@@ -101,7 +101,7 @@ class Plot {
     for (const Row& row : r.rows)
       if (row.good() && row.error.resolved() > 0 && std::isfinite(row.error.resolved()))
         all.push_back(100 * row.error.resolved());
-    if (r.noise > 0) all.push_back(100 * r.noise);
+    if (r.noise > 0.0) all.push_back(100 * *r.noise);
     return all;
   }
 
@@ -213,8 +213,8 @@ class Plot {
   }
 
   std::string reference() const {
-    if (!r_.reference) return "";
-    const double x = x_.pixel(r_.reference->speed), y = y_.pixel(100 * r_.noise);
+    if (!r_.reference || !r_.noise) return "";
+    const double x = x_.pixel(r_.reference->speed), y = y_.pixel(100 * *r_.noise);
     return fmt::format("<path d=\"M{0:.1f},{1:.1f} l12,12 m0,-12 l-12,12\" stroke=\"{2}\" stroke-width=\"2.2\"/>\n",
                        x - 6, y - 6, ink);
   }
@@ -233,7 +233,7 @@ class Plot {
     y += line_height;
     entry(line(x - 7, y, x + 7, y, "#dc2626", "stroke-width=\"1.6\""), "no setting beats it");
     entry(line(x, y - 7, x, y + 7, faint), "95 % interval");
-    if (r_.reference)
+    if (r_.reference && r_.noise)
       entry(fmt::format("<path d=\"M{:.1f},{:.1f} l10,10 m0,-10 l-10,10\" stroke=\"{}\" stroke-width=\"2.2\"/>\n",
                         x - 5, y - 5, ink),
             "reference, at its noise");

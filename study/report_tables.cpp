@@ -152,7 +152,7 @@ std::string json_text(const Report& r) {
             {"runs_at_once", r.at_once},
             {"cores", r.cores},
             {"threads", r.threads},
-            {"noise", r.noise},
+            {"noise", r.noise ? Json(*r.noise) : Json()},
             {"observables", list_of(r.marks)}};
   if (r.reference) json["reference"] = json_of(*r.reference);
   json["rows"] = list_of(r.rows);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -24,13 +25,13 @@ std::vector<std::string> split(const std::string& text, char at) {
 double number_of(const std::string& text, const std::string& whole) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
     throw InputError(
         fmt::format("--peer {}: '{}' is no number, expected NAME=SPEED,observable=value,...", whole, text));
   return value;
 }
 
-const Yardstick::Mark* find(const std::vector<Yardstick::Mark>& marks, const std::string& name) {
+const Yardstick::Mark* find(const std::vector<Yardstick::Mark>& marks, std::string_view name) {
   const auto found =
       std::find_if(marks.begin(), marks.end(), [&](const auto& m) { return m.observable->name == name; });
   return found == marks.end() ? nullptr : &*found;
@@ -97,13 +98,6 @@ std::string speeds_text(const Report& r, const Row& row) {
   return text;
 }
 
-std::string seeds_needed_text(const Row& row, double wish) {
-  const SeedsNeeded n = seeds_to_decide(row.counted, wish);
-  if (n.of_setting) return fmt::format("{} seeds would decide", *n.of_setting);
-  if (n.of_both) return fmt::format("{} seeds of it and of the reference would decide", *n.of_both);
-  return "no number of seeds would decide: it is too near";
-}
-
 std::string best_text(const Report& r, double wish) {
   std::string text = fmt::format("- below {:g} %: ", 100 * wish);
   const auto sure = fastest(r.rows, wish, Verdict::below);
@@ -117,7 +111,7 @@ std::string best_text(const Report& r, double wish) {
   if (!perhaps || (sure && r.rows[*perhaps].speed <= r.rows[*sure].speed)) return text;
   const Row& row = r.rows[*perhaps];
   return text + fmt::format("  - perhaps {}: {}, {}; {}\n", row.setting.label(), error_text(row.error),
-                            speeds_text(r, row), seeds_needed_text(row, wish));
+                            speeds_text(r, row), seeds_text(seeds_to_decide(row.counted, wish)));
 }
 
 std::string failures_text(const Report& r) {
@@ -142,6 +136,20 @@ std::string peers_text(const Report& r) {
 
 }  // namespace
 
+std::string noise_text(const std::optional<double>& noise) {
+  if (!noise) return "One seed says nothing of its own noise.";
+  return fmt::format("Its seeds alone make an error of {:.2g} %.", 100 * *noise);
+}
+
+std::string seeds_text(const SeedsNeeded& n) {
+  std::vector<std::string> ways;
+  if (n.of_setting) ways.push_back(fmt::format("{} seeds of it", *n.of_setting));
+  if (n.of_both && !(n.of_setting && *n.of_setting <= *n.of_both))
+    ways.push_back(fmt::format("{} seeds of it and of the reference", *n.of_both));
+  if (ways.empty()) return "it is too near to be decided by any number of seeds";
+  return fmt::format("about {} would decide", fmt::join(ways, " or "));
+}
+
 std::string error_text(const Error& e) {
   const double uncertainty = e.high - e.value;
   if (!std::isfinite(uncertainty)) return fmt::format("{:.2g} %", 100 * e.value);
@@ -153,7 +161,7 @@ std::optional<double> Peer::error() const {
   return error_of(compared).value;
 }
 
-Peer read_peer(const std::string& text, const Yardstick& yardstick) {
+Peer read_peer(const std::string& text) {
   Peer peer;
   for (const std::string& part : split(text, ',')) {
     const auto equals = part.find('=');
@@ -164,13 +172,19 @@ Peer read_peer(const std::string& text, const Yardstick& yardstick) {
     if (peer.name.empty()) {
       peer.name = name;
       peer.speed = value;
-      continue;
+    } else {
+      peer.values.push_back({find_observable(name, "--peer " + text).name, value});
     }
-    find_observable(name, "--peer " + text);
-    if (const Yardstick::Mark* m = find(yardstick.marks(), name); m && m->counted)
-      peer.compared.push_back({name, {1, value, 0}, m->reference, m->scale});
   }
+  if (peer.name.empty() || !(peer.speed > 0))
+    throw InputError(fmt::format("--peer {}: expected a name and a speed above 0, NAME=SPEED,...", text));
   return peer;
+}
+
+void compare(Peer& peer, const Yardstick& yardstick) {
+  for (const auto& [name, value] : peer.values)
+    if (const Yardstick::Mark* m = find(yardstick.marks(), name); m && m->counted)
+      peer.compared.push_back({std::string(name), {1, value, 0}, m->reference, m->scale});
 }
 
 std::string front_text(const Report& r) {
@@ -178,8 +192,8 @@ std::string front_text(const Report& r) {
   text += fmt::format("{} elements, {:.4g} s simulated. Seeds: {}. Speeds: {}.\n", grouped(r.elements), r.duration,
                       r.seeds_text, clock_text(r));
   if (r.reference)
-    text += fmt::format("Reference: {}, {} seeds, {:.3g} simulated s / s. Its seeds alone make an error of {:.2g} %.\n",
-                        r.reference->setting.label(), r.reference->seeds, r.reference->speed, 100 * r.noise);
+    text += fmt::format("Reference: {}, {} seeds, {:.3g} simulated s / s. {}\n", r.reference->setting.label(),
+                        r.reference->seeds, r.reference->speed, noise_text(r.noise));
   text += '\n';
   text += marks_table(r);
   text += fmt::format("\n{} settings. Those that no other beats:\n\n{}\n", r.rows.size(), front_table(r));

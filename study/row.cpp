@@ -43,16 +43,24 @@ void fill(Row& row, std::span<const Record> runs, const Yardstick& yardstick, Se
 
 }  // namespace
 
+bool alike(std::span<const Record> runs) {
+  const auto hash = [](const Record& r) { return r.summary.at("state_hash"); };
+  return runs.size() > 1 &&
+         std::all_of(runs.begin(), runs.end(), [&](const Record& r) { return hash(r) == hash(runs.front()); });
+}
+
 Row make_row(const Setting& setting, std::span<const Record> runs, const Yardstick& yardstick, Seconds seconds) {
   Row row;
   row.setting = setting;
   row.command = runs.front().command;
   row.seeds = static_cast<int>(runs.size());
   const auto bad = std::find_if(runs.begin(), runs.end(), [](const Record& r) { return !r.good(); });
-  if (bad == runs.end()) {
-    fill(row, runs, yardstick, seconds);
-  } else {
+  if (bad != runs.end()) {
     fail(row, bad->status, bad->message);
+  } else if (alike(runs)) {
+    fail(row, 2, seeds_change_nothing);
+  } else {
+    fill(row, runs, yardstick, seconds);
   }
   return row;
 }

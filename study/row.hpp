@@ -15,6 +15,10 @@ namespace moraine::study {
 /// Whose seconds speeds are stated in: those of the wall, or the processor's, which other programs disturb less.
 enum class Seconds { wall, processor };
 
+inline constexpr const char* seeds_change_nothing =
+    "its seeds change nothing, all runs end in the same state; expected a perturbation, or a parameter under "
+    "tradeoff.seed that the scene depends on, or --seeds 1";
+
 struct Row {
   Setting setting;
   std::string command;              ///< with the first seed
@@ -30,7 +34,10 @@ struct Row {
   bool good() const { return status == 0; }
 };
 
-/// A row fails if any of its runs did.
+/// Whether several runs end in the very same state: then their seeds change nothing, and say nothing about spread.
+bool alike(std::span<const Record> runs);
+
+/// A row fails if any of its runs did, or if its seeds change nothing.
 Row make_row(const Setting& setting, std::span<const Record> runs, const Yardstick& yardstick, Seconds seconds);
 
 /// The good rows that no other beats in both speed and resolved error; fastest first.

@@ -55,7 +55,9 @@ Difference difference(const Sample& a, const Sample& b) {
 }
 
 std::optional<int> runs_needed(Sample a, Sample b, double margin, bool both) {
-  if (!(margin > 0)) return std::nullopt;
+  if (!(margin > 0) || (a.count == 1 && b.count < 2)) return std::nullopt;
+  if (a.count == 1) a.deviation = b.deviation;
+  if (b.count == 1) b.deviation = a.deviation;
   for (int runs = 2; runs < 100'000; runs += 1 + runs / 50) {
     a.count = runs;
     if (both && b.count > 0) b.count = runs;

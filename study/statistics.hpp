@@ -33,7 +33,8 @@ struct Difference {
 Difference difference(const Sample& a, const Sample& b);
 
 /// Runs of `a` that would make the uncertainty at most `margin`, if the spreads stay as they are; with `both`, runs of
-/// each. Nothing if no number below 100,000 would.
+/// each. A single run has the spread of the other sample. Nothing if no number below 100,000 would, or if no spread is
+/// known.
 std::optional<int> runs_needed(Sample a, Sample b, double margin, bool both);
 
 }  // namespace moraine::study

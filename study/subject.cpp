@@ -31,6 +31,13 @@ std::vector<Override> overrides_of(const Choices& choices) {
   return all;
 }
 
+/// All runs of a study have as many threads: speeds are compared.
+void check_varied(const Choices& choices) {
+  for (const Choice& c : choices)
+    if (key_of(c.name) == "run.threads")
+      throw InputError(fmt::format("{}: {} cannot be varied, expected --threads for all runs", c.place, c.name));
+}
+
 /// The first value of each.
 Choices choices_of(const AxisBlock& block) {
   Choices all;
@@ -122,6 +129,7 @@ Subject::Subject(std::string file, std::vector<Override> overrides, Identify ide
 }
 
 Setting Subject::resolve(const Choices& choices) const {
+  check_varied(choices);
   Setting s;
   s.choices = choices;
   s.changes = overrides_of(choices);

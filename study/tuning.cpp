@@ -38,7 +38,7 @@ class Stage {
     return make_row(subject_.resolve(subject_.reference()), reference_runs_, *yardstick_, options_.seconds);
   }
 
-  double noise() const { return yardstick_->noise(); }
+  std::optional<double> noise() const { return yardstick_->noise(); }
   const Subject& subject() const { return subject_; }
 
   Row measure(const Setting& setting, int first_seed, int seeds) {
@@ -135,6 +135,8 @@ std::vector<Record> run_reference(const Subject& subject, Laboratory& laboratory
   std::vector<Record> records = laboratory.run(subject, trials_of(setting, first_seed, seeds));
   for (const Record& r : records)
     if (!r.good()) throw InputError(fmt::format("the reference failed: {}\n  {}", r.message, r.command));
+  if (alike(records))
+    throw InputError(fmt::format("the reference failed: {}\n  {}", seeds_change_nothing, records.front().command));
   return records;
 }
 

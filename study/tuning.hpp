@@ -29,8 +29,8 @@ struct Tuned {
   std::vector<Row> undecided;    ///< after as many seeds as are allowed
   std::optional<Row> found;      ///< surely good enough, by fresh seeds; the cheapest of those tried
   std::optional<Row> reference;  ///< of the scene that candidates were judged on
-  double noise = 0;
-  bool on_proxy = false;  ///< candidates were judged on the proxy
+  std::optional<double> noise;   ///< as Yardstick::noise()
+  bool on_proxy = false;         ///< candidates were judged on the proxy
 };
 
 /// Screens all settings of the grid on the proxy, with one seed and then, the cheaper half, with `seeds`; judges the

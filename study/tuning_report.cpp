@@ -20,13 +20,6 @@ std::string speed_text(const TuningReport& r, const Row& row) {
   return text;
 }
 
-std::string seeds_text(const Row& row, double wish) {
-  const SeedsNeeded n = seeds_to_decide(row.counted, wish);
-  if (n.of_setting) return fmt::format("about {} seeds of it would decide", *n.of_setting);
-  if (n.of_both) return fmt::format("about {} seeds of it and of the reference would decide", *n.of_both);
-  return "it is too near to be decided by any number of seeds";
-}
-
 std::string row_text(const TuningReport& r, const Row& row) {
   if (!row.good()) return fmt::format("- {}: {}\n", row.setting.label(), row.reason);
   return fmt::format("- {}: {} ({}), {} seeds; {}\n", row.setting.label(), error_text(row.error), row.error.worst,
@@ -35,7 +28,8 @@ std::string row_text(const TuningReport& r, const Row& row) {
 
 std::string undecided_text(const TuningReport& r) {
   std::string text;
-  for (const Row& row : r.tuned.undecided) text += row_text(r, row) + "  " + seeds_text(row, r.options.wish) + "\n";
+  for (const Row& row : r.tuned.undecided)
+    text += row_text(r, row) + "  " + seeds_text(seeds_to_decide(row.counted, r.options.wish)) + "\n";
   return text.empty() ? "" : fmt::format("\nUndecided within {} seeds:\n\n{}", r.options.most_seeds, text);
 }
 
@@ -76,13 +70,17 @@ std::string search_text(const TuningReport& r) {
                             r.threads > 1 ? "s" : "");
 }
 
+/// What was found, worked out for the scene itself: on a proxy the same choices come to other steps.
+Setting of_the_scene(const TuningReport& r) { return r.subject->resolve(r.tuned.found->setting.choices); }
+
 std::string found_text(const TuningReport& r) {
   const Row& row = *r.tuned.found;
   std::string text = fmt::format("Error below {:g} %: **{}**\n", 100 * r.options.wish, row.setting.label());
   text += fmt::format("Error {} (worst: {}) on {} fresh seeds; {}.\n{}\n", error_text(row.error), row.error.worst,
                       row.seeds, speed_text(r, row), where_text(r));
-  text += evidence_text(row) + "\n```yaml\n" + yaml_text(row.setting.changes) + "```\n\n```sh\n";
-  return text + command_line(r.file, r.subject->settings(row.setting)) + "\n```\n";
+  const Setting found = of_the_scene(r);
+  text += evidence_text(row) + "\n```yaml\n" + yaml_text(found.changes) + "```\n\n```sh\n";
+  return text + command_line(r.file, r.subject->settings(found)) + "\n```\n";
 }
 
 /// The candidate that came nearest.
@@ -97,13 +95,13 @@ const Row* nearest(const Tuned& t) {
 std::string refusal_text(const TuningReport& r) {
   std::string text = fmt::format("No setting in reach has an error that is surely below {:g} %.\n{}",
                                  100 * r.options.wish, where_text(r));
-  if (r.tuned.noise > 0)
-    text += fmt::format("The seeds of the reference alone make an error of {:.2g} %.\n", 100 * r.tuned.noise);
+  if (r.tuned.reference)
+    text += fmt::format("Reference: {}. {}\n", r.tuned.reference->setting.label(), noise_text(r.tuned.noise));
   if (const Row* row = nearest(r.tuned)) text += fmt::format("Nearest:\n\n{}", row_text(r, *row));
   return text;
 }
 
-Json json_of(const Row& row) {
+Json brief(const Row& row) {
   Json json{{"setting", row.setting.label()}, {"command", row.command}, {"seeds", row.seeds}, {"status", row.status}};
   if (!row.good()) return json;
   json["speed"] = row.speed;
@@ -112,9 +110,9 @@ Json json_of(const Row& row) {
   return json;
 }
 
-Json json_of(const std::vector<Row>& rows) {
+Json brief(const std::vector<Row>& rows) {
   Json json = Json::array();
-  for (const Row& row : rows) json.push_back(json_of(row));
+  for (const Row& row : rows) json.push_back(brief(row));
   return json;
 }
 
@@ -134,18 +132,19 @@ std::string tuning_json(const TuningReport& r) {
             {"candidates", t.candidates},
             {"failed", t.failed},
             {"refuted", t.refuted},
-            {"noise", t.noise},
+            {"noise", t.noise ? Json(*t.noise) : Json()},
             {"runs", r.runs},
             {"wall_s", r.wall_s},
             {"cpu_s", r.cpu_s},
             {"runs_at_once", r.at_once},
-            {"too_bad", json_of(t.too_bad)},
-            {"undecided", json_of(t.undecided)}};
-  if (t.reference) json["reference"] = json_of(*t.reference);
+            {"too_bad", brief(t.too_bad)},
+            {"undecided", brief(t.undecided)}};
+  if (t.reference) json["reference"] = brief(*t.reference);
   if (t.found) {
-    json["found"] = json_of(*t.found);
-    json["yaml"] = yaml_text(t.found->setting.changes);
-    json["run"] = command_line(r.file, r.subject->settings(t.found->setting));
+    json["found"] = brief(*t.found);
+    const Setting found = of_the_scene(r);
+    json["yaml"] = yaml_text(found.changes);
+    json["run"] = command_line(r.file, r.subject->settings(found));
   }
   return json.dump(2) + "\n";
 }

@@ -82,10 +82,11 @@ std::vector<Comparison> Yardstick::compare_counted(std::span<const Record> runs)
   return all;
 }
 
-double Yardstick::noise() const {
-  double most = 0;
+std::optional<double> Yardstick::noise() const {
+  std::optional<double> most;
   for (const Mark& m : marks_)
-    if (m.counted && m.reference.count > 1) most = std::max(most, deviation(comparison(m, m.reference)).uncertainty);
+    if (m.counted && m.reference.count > 1)
+      most = std::max(most.value_or(0), deviation(comparison(m, m.reference)).uncertainty);
   return most;
 }
 

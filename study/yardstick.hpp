@@ -2,6 +2,7 @@
 // What results are compared with: the reference's, or values known to be right.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,8 +33,8 @@ class Yardstick {
   std::vector<Comparison> compare(std::span<const Record> runs) const;
   /// Of those that count.
   std::vector<Comparison> compare_counted(std::span<const Record> runs) const;
-  /// Of the reference itself: what its seeds alone amount to.
-  double noise() const;
+  /// Of the reference itself: what its seeds alone amount to. Nothing if all is expected or there is one seed only.
+  std::optional<double> noise() const;
 
  private:
   std::vector<Mark> marks_;

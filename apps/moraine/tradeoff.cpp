@@ -45,6 +45,7 @@ class Tradeoff {
         subject_(choices.study.subject()),
         laboratory_(choices.study.laboratory(subject_)),
         seeds_(choices.study.seeds(subject_)) {
+    for (const std::string& text : choices.peers) report_.peers.push_back(read_peer(text));
     report_.command = command;
     report_.scene = subject_.scene().name;
     report_.file = subject_.file();
@@ -65,7 +66,7 @@ class Tradeoff {
     report_.noise = yardstick.noise();
     if (!reference.empty())
       report_.reference = make_row(subject_.resolve(subject_.reference()), reference, yardstick, report_.seconds);
-    for (const std::string& text : choices_.peers) report_.peers.push_back(read_peer(text, yardstick));
+    for (Peer& peer : report_.peers) compare(peer, yardstick);
     run_grid(settings, yardstick);
     return report_;
   }

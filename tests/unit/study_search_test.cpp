@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <random>
 #include <utility>
 
 #include "study/axis.hpp"
@@ -60,6 +61,19 @@ TEST(Grid, IsNarrowedByOtherAxes) {
   EXPECT_EQ(text_of(combinations(blocks)), "engine a substeps 3 skin 0.1 | engine a substeps 3 skin 0.2 | ");
 }
 
+TEST(Grid, BlocksWithoutAnEngineAreForAny) {
+  std::vector<AxisBlock> blocks{{{"dt", {"1", "2"}, ""}}};
+  narrow(blocks, {"engine", {"a"}, ""});
+  EXPECT_EQ(text_of(combinations(blocks)), "dt 1 engine a | dt 2 engine a | ");
+}
+
+TEST(Grid, WholeKeysAreShortNames) {
+  std::vector<AxisBlock> blocks{{{"run.engine", {"a", "b"}, ""}, {"limit_share", {"1"}, ""}}};
+  narrow(blocks, {"engine", {"a"}, ""});
+  narrow(blocks, {"time.substeps", {"3"}, ""});
+  EXPECT_EQ(text_of(combinations(blocks)), "run.engine a time.substeps 3 | ");
+}
+
 TEST(Grid, ShortNamesStandForKeys) {
   EXPECT_EQ(key_of("dt"), "time.dt");
   EXPECT_EQ(key_of("materials.grain.friction"), "materials.grain.friction");
@@ -104,6 +118,35 @@ TEST(Halving, AsksForTheSeedsThatDecideOrGivesUp) {
 }
 
 using Kind = Step::Kind;
+
+/// As tune judges: with more seeds of the setting, or of both, until it is decided. `error`: true one, spreads are 1.
+Kind judged(std::mt19937& random, double error, double wish, int most) {
+  std::normal_distribution<double> spread;
+  std::vector<double> measured, reference;
+  const auto grow = [&](std::vector<double>& runs, int count, double mean) {
+    while (static_cast<int>(runs.size()) < count) runs.push_back(mean + spread(random));
+  };
+  grow(reference, 3, 0);
+  for (int seeds = 2;;) {
+    grow(measured, seeds, error);
+    const std::array all{Comparison{"x", sample_of(measured), sample_of(reference), 1}};
+    const Step step = next_step(all, wish, seeds, 5, most);
+    if (step.kind != Kind::more_seeds && step.kind != Kind::more_of_both) return step.kind;
+    if (step.kind == Kind::more_of_both) grow(reference, step.seeds, 0);
+    seeds = std::max(seeds, step.seeds);
+  }
+}
+
+/// Looking again and again gives chance more than one chance: 2.5 % of a single look become 2 to 5 %.
+TEST(Halving, HardlyEverAcceptsWhatIsTooBad) {
+  std::mt19937 random(1);
+  constexpr int trials = 4000;
+  for (const double wish : {1.0, 2.0, 4.0, 8.0}) {
+    int accepted = 0;
+    for (int k = 0; k < trials; ++k) accepted += judged(random, wish, wish, 12) == Kind::accept;
+    EXPECT_LT(accepted, 0.06 * trials) << wish;
+  }
+}
 
 TEST(FirstAccepted, StopsThere) {
   const std::array kinds{Kind::reject, Kind::give_up, Kind::accept, Kind::accept};

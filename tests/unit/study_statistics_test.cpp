@@ -7,6 +7,7 @@
 #include <random>
 
 #include "study/error.hpp"
+#include "study/report.hpp"
 #include "study/statistics.hpp"
 
 namespace moraine::study {
@@ -74,6 +75,14 @@ TEST(Statistics, RunsNeededMakeTheMargin) {
   EXPECT_FALSE(runs_needed(a, b, 0, true));
 }
 
+TEST(Statistics, LoneRunsBorrowTheOthersSpread) {
+  const Sample lone{1, 0, 0}, many{5, 0, 1};
+  EXPECT_EQ(runs_needed(lone, many, 0.7, true), runs_needed(many, many, 0.7, true));
+  EXPECT_EQ(runs_needed(many, lone, 0.7, true), runs_needed(many, many, 0.7, true));
+  EXPECT_FALSE(runs_needed(lone, exactly(0), 0.7, false)) << "nothing is known of its spread";
+  EXPECT_FALSE(runs_needed(lone, lone, 0.7, true));
+}
+
 Comparison compared(const char* name, double mean, double scale = 1) {
   return {name, {5, mean, 0.01}, {5, 1, 0.01}, scale};
 }
@@ -108,6 +117,13 @@ TEST(ErrorOfASetting, SaysHowManySeedsWouldDecide) {
   more[0].measured.count = more[0].reference.count = *needed.of_both;
   EXPECT_EQ(judge(error_of(more), 0.02), Verdict::below);
   EXPECT_GT(*needed.of_both, 20);
+}
+
+TEST(ErrorOfASetting, NamesSeedsOfTheReferenceIfThatAreFewer) {
+  EXPECT_EQ(seeds_text({2864, 70}), "about 2864 seeds of it or 70 seeds of it and of the reference would decide");
+  EXPECT_EQ(seeds_text({12, 12}), "about 12 seeds of it would decide");
+  EXPECT_EQ(seeds_text({std::nullopt, 30}), "about 30 seeds of it and of the reference would decide");
+  EXPECT_EQ(seeds_text({}), "it is too near to be decided by any number of seeds");
 }
 
 }  // namespace
