@@ -90,6 +90,12 @@ struct ByEngine {
   }
 };
 
+/// What cannot run is refused or stopped with these words.
+inline void expect_end(const Outcome& o, bool runs, const std::string& words) {
+  EXPECT_EQ(o.ran(), runs) << o.text;
+  EXPECT_TRUE(o.ran() || o.says(words)) << o.text;
+}
+
 /// Overrides that run a scene for `seconds` with the engine's own step: half its limit, else `step` [s].
 inline std::vector<Override> for_time(const std::string& text, const std::string& engine, double seconds, double step,
                                       std::vector<Override> overrides = {}) {

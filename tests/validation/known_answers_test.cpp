@@ -72,7 +72,7 @@ const Miss* miss_of(const Trial& t) {
 /// Appended to the file that MORAINE_KNOWN_ANSWERS names.
 void record(const Trial& t, double error, const Miss* miss) {
   if (const char* file = std::getenv("MORAINE_KNOWN_ANSWERS"))
-    std::ofstream(file, std::ios::app) << fmt::format("{}|{}|{:g}|{}|{}|{:.2g}|{}\n", t.what.name, t.what.answer,
+    std::ofstream(file, std::ios::app) << fmt::format("{}|{}|{}|{}|{}|{}|{}\n", t.what.name, t.what.answer,
                                                       t.tolerance(), t.how.engine, t.how.cut ? "cut" : "whole", error,
                                                       miss ? miss->cause : "");
 }

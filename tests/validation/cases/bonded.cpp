@@ -151,7 +151,7 @@ double truss_sag(const Setting& s) { return sag_error(s, 2e-4); }
 /// A sag that is small but not nothing, and rounding, leave up to 0.2 %: below that there is no order to see.
 double truss_converges(const Setting& s) {
   const double coarse = sag_error(s, 4e-4), fine = sag_error(s, 1e-4);
-  return coarse < 2e-3 ? 0 : std::max(0.0, 1 - std::log2(coarse / fine) / 2);
+  return coarse < 2e-3 ? 0 : worst_of({0, 1 - std::log2(coarse / fine) / 2});
 }
 
 }  // namespace

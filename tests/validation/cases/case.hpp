@@ -3,6 +3,7 @@
 // of docs/accuracy.md.
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,5 +67,8 @@ std::string ball(const Setting& setting, const std::string& material);
 
 /// Steps until `seconds` of the run have passed.
 void run_until(ModelRun& run, double seconds);
+
+/// The largest, or NaN if one of them is: std::max may lose it, and a case without an answer would be met.
+double worst_of(std::initializer_list<double> errors);
 
 }  // namespace moraine::test

@@ -41,7 +41,7 @@ double hertz_error(ModelRun run, double mass, double (*gap)(const ModelRun&), co
     seen.depth = std::max(seen.depth, -gap(run));
     seen.duration += dt;
   }
-  return std::max({std::abs(seen.force / expected.force - 1), std::abs(seen.depth / expected.depth - 1),
+  return worst_of({std::abs(seen.force / expected.force - 1), std::abs(seen.depth / expected.depth - 1),
                    std::abs(seen.duration / expected.duration - 1)});
 }
 
@@ -91,7 +91,7 @@ ElementState oxide_ball(const Setting& s, const std::string& contact, double deg
 double plane_returns(const Setting& s) {
   double most = 0;
   for (const double e : {0.2, 0.4, 0.6, 0.8, 1.0})
-    most = std::max(most, std::abs(oxide_ball(s, fmt::format("restitution: {}", e), 0).twist.linear.z() / 3.9 - e));
+    most = worst_of({most, std::abs(oxide_ball(s, fmt::format("restitution: {}", e), 0).twist.linear.z() / 3.9 - e)});
   return most;
 }
 
@@ -114,9 +114,8 @@ Glance glance(const Setting& s, const Angle& a) {
   const double angle = a.degrees * std::numbers::pi / 180, vt = 3.9 * std::sin(angle), vn = 3.9 * std::cos(angle);
   const Twist t = oxide_ball(s, "friction: 0.092, restitution: 0.98", a.degrees).twist;
   return {
-      std::max(std::abs(t.linear.x() / vt - a.tangential),
-               std::abs(t.angular.y() / a.spin.value_or(t.angular.y()) - 1)),
-      std::max(std::abs(t.linear.z() / vn - 0.98), std::abs((t.linear.x() + 0.4 * 0.0025 * t.angular.y()) / vt - 1))};
+      worst_of({std::abs(t.linear.x() / vt - a.tangential), a.spin ? std::abs(t.angular.y() / *a.spin - 1) : 0}),
+      worst_of({std::abs(t.linear.z() / vn - 0.98), std::abs((t.linear.x() + 0.4 * 0.0025 * t.angular.y()) / vt - 1)})};
 }
 
 template <const auto& angles>
@@ -124,14 +123,14 @@ Glance glances(const Setting& s) {
   Glance most;
   for (const Angle& a : angles) {
     const Glance g = glance(s, a);
-    most = {std::max(most.surface, g.surface), std::max(most.budgets, g.budgets)};
+    most = {worst_of({most.surface, g.surface}), worst_of({most.budgets, g.budgets})};
   }
   return most;
 }
 
 double plane_slides(const Setting& s) { return glances<sliding>(s).surface; }
 double plane_swings_back(const Setting& s) { return glances<sticking>(s).surface; }
-double plane_budgets(const Setting& s) { return std::max(glances<sliding>(s).budgets, glances<sticking>(s).budgets); }
+double plane_budgets(const Setting& s) { return worst_of({glances<sliding>(s).budgets, glances<sticking>(s).budgets}); }
 
 /// Opposite spins: the surfaces that meet have the same speed, so nothing rubs.
 double opposite_spins(const Setting& s) {
@@ -142,7 +141,7 @@ double opposite_spins(const Setting& s) {
                     ball(s, "restitution: 0.5, friction: 0.4"), weightless),
             step);
   run_until(run, 0.2);
-  return std::max((run.spin(1) - Vec3(0, 0, 10)).norm() / 10, std::abs(run.velocity(1).y()));
+  return worst_of({(run.spin(1) - Vec3(0, 0, 10)).norm() / 10, std::abs(run.velocity(1).y())});
 }
 
 /// What two alike materials say; the one called rigid is a thousand times stiffer, if that counts.
@@ -174,7 +173,7 @@ double spun(const ElementState& e) { return small * e.twist.angular.y() / (rough
 
 double small_ball_slides(const Setting& s) {
   double most = 0;
-  for (const double x : {8.0, 12.0, 20.0}) most = std::max(most, std::abs(spun(small_ball(s, x)) / 5 - 1));
+  for (const double x : {8.0, 12.0, 20.0}) most = worst_of({most, std::abs(spun(small_ball(s, x)) / 5 - 1)});
   return most;
 }
 
@@ -182,7 +181,7 @@ double small_ball_sticks(const Setting& s) {
   double most = 0;
   for (const double x : {1.0, 2.0, 4.0, 6.0}) {
     const ElementState e = small_ball(s, x);
-    most = std::max(most, std::abs(e.twist.linear.x() - small * e.twist.angular.y()) / (x * rough * fast));
+    most = worst_of({most, std::abs(e.twist.linear.x() - small * e.twist.angular.y()) / (x * rough * fast)});
   }
   return most;
 }
@@ -194,7 +193,7 @@ constexpr Point finite_elements[] = {{0.595, 0.406}, {1.185, 0.982}, {1.896, 1.7
 /// Of the greatest.
 double small_ball_swings_back(const Setting& s) {
   double most = 0;
-  for (const Point& p : finite_elements) most = std::max(most, std::abs(spun(small_ball(s, p.at)) - p.expected) / 5);
+  for (const Point& p : finite_elements) most = worst_of({most, std::abs(spun(small_ball(s, p.at)) - p.expected) / 5});
   return most;
 }
 
@@ -246,14 +245,14 @@ using Meeting = Slip (*)(const Setting&, double);
 template <Meeting meet>
 double slides(const Setting& s) {
   double most = 0;
-  for (const double x : {0.187, 0.358, 0.551, 0.765}) most = std::max(most, std::abs(meet(s, x).turned() - (x - 1)));
+  for (const double x : {0.187, 0.358, 0.551, 0.765}) most = worst_of({most, std::abs(meet(s, x).turned() - (x - 1))});
   return most;
 }
 
 template <Meeting meet>
 double sticks(const Setting& s) {
   double most = 0;
-  for (const double x : {1.5, 3.0, 10.0}) most = std::max(most, std::abs(meet(s, x).turned()));
+  for (const double x : {1.5, 3.0, 10.0}) most = worst_of({most, std::abs(meet(s, x).turned())});
   return most;
 }
 
@@ -262,7 +261,7 @@ constexpr Point alloy[] = {{1.2139, 0.096}, {1.492, 0.111}, {2.5187, 0.006}, {4.
 
 double swings_back(const Setting& s) {
   double most = 0;
-  for (const Point& p : alloy) most = std::max(most, std::abs(on_plane(s, p.at).turned() - p.expected));
+  for (const Point& p : alloy) most = worst_of({most, std::abs(on_plane(s, p.at).turned() - p.expected)});
   return most;
 }
 

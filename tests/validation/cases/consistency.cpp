@@ -42,7 +42,7 @@ double column_gains(const Setting& s) {
   double most = before;
   while (run.time() < 1) {
     run.steps(5);
-    most = std::max(most, energy());
+    most = worst_of({most, energy()});
   }
   return most - before;
 }
@@ -90,7 +90,7 @@ double identity(const Setting& s) {
     if (left != (run.position(1).x() < 0)) crossings += 2, left = !left;
     for (const std::size_t i : {1U, 2U}) handed += run.model().owners()[i] != owners[i];
     owners = run.model().owners();
-    most = std::max(most, lost(run));
+    most = worst_of({most, lost(run)});
   }
   return most + std::max(0, enough - crossings) + (s.cut ? std::max(0, enough - handed) : 0);
 }
@@ -143,7 +143,7 @@ std::vector<Body> after(const Setting& s, const std::vector<Body>& bodies, bool 
 double apart(const std::vector<Body>& a, const std::vector<Body>& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
-    most = std::max({most, (a[i].at - b[i].at).norm(), (a[i].velocity - b[i].velocity).norm(),
+    most = worst_of({most, (a[i].at - b[i].at).norm(), (a[i].velocity - b[i].velocity).norm(),
                      0.1 * (a[i].spin - b[i].spin).norm()});
   return most;
 }
@@ -166,7 +166,7 @@ double mirror_differs(const Setting& s) {
   for (const bool bonded : {false, true}) {
     const std::vector<Body> start = bonded ? swinging() : meeting(), end = after(s, start, bonded, as_listed);
     for (Eigen::Index axis = 0; axis < 3; ++axis)
-      most = std::max(most, apart(mirrored(end, axis), after(s, mirrored(start, axis), bonded, as_listed)));
+      most = worst_of({most, apart(mirrored(end, axis), after(s, mirrored(start, axis), bonded, as_listed))});
   }
   return most;
 }
@@ -177,7 +177,7 @@ double numbers_differ(const Setting& s) {
   for (const bool bonded : {false, true}) {
     const std::vector<Body> start = bonded ? swinging() : meeting();
     const auto backwards = [&](std::size_t i) { return start.size() - i; };
-    most = std::max(most, apart(after(s, start, bonded, as_listed), after(s, start, bonded, backwards)));
+    most = worst_of({most, apart(after(s, start, bonded, as_listed), after(s, start, bonded, backwards))});
   }
   return most;
 }

@@ -89,7 +89,7 @@ double galilean(const Setting& s) {
   const std::vector<ElementState> a = here.model().states(), b = there.model().states();
   double most = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
-    most = std::max(most, (b[i].pose.position - a[i].pose.position - there.time() * Vec3(10, -7, 3)).norm() / 0.1);
+    most = worst_of({most, (b[i].pose.position - a[i].pose.position - there.time() * Vec3(10, -7, 3)).norm() / 0.1});
   return most;
 }
 

@@ -27,7 +27,7 @@ std::string side_by_side(const Setting& s, const std::string& item, double z, do
 template <class Error>
 double worst(const ModelRun& run, const Error& error) {
   double most = 0;
-  for (const ElementState& s : run.model().states()) most = std::max(most, std::abs(error(s)));
+  for (const ElementState& s : run.model().states()) most = worst_of({most, std::abs(error(s))});
   return most;
 }
 
@@ -51,18 +51,18 @@ double rebound_error(const Setting& s, double e, double height) {
         s, spheres(side_by_side(s, "", 0.1 + from, 0.2), ball(s, fmt::format("restitution: {}", e)), floor_at_zero), dt,
         {}, 0.02);
     run_until(run, (1 + 0.5 * e) * std::sqrt(2 * from / g));
-    most = std::max(most, worst(run, [&](const ElementState& state) {
-                      const double energy =
-                          g * (state.pose.position.z() - 0.1) + 0.5 * state.twist.linear.z() * state.twist.linear.z();
-                      return std::sqrt(energy / (g * from)) - e;
-                    }));
+    const double error = worst(run, [&](const ElementState& state) {
+      const double energy = g * (state.pose.position.z() - 0.1) + 0.5 * state.twist.linear.z() * state.twist.linear.z();
+      return std::sqrt(std::max(0.0, energy) / (g * from)) - e;
+    });
+    most = worst_of({most, error});
   }
   return most;
 }
 
 double bounce(const Setting& s) {
   double most = 0;
-  for (const double e : {0.3, 0.5, 0.8, 1.0}) most = std::max(most, rebound_error(s, e, 1));
+  for (const double e : {0.3, 0.5, 0.8, 1.0}) most = worst_of({most, rebound_error(s, e, 1)});
   return most;
 }
 
@@ -99,7 +99,7 @@ double block_slides(const Setting& s) {
   double most = 0;
   for (const double heading : {0.0, std::numbers::pi / 4}) {
     ModelRun run = trial(s, blocks(s, 0.3), step, {on_slope(heading)});
-    most = std::max(most, acceleration_error(run, g * (std::sin(slope) - 0.3 * std::cos(slope))));
+    most = worst_of({most, acceleration_error(run, g * (std::sin(slope) - 0.3 * std::cos(slope)))});
   }
   return most;
 }
@@ -116,7 +116,7 @@ double block_sticks(const Setting& s) {
   for (const double heading : {0.0, std::numbers::pi / 4}) {
     double low = 0.4, high = 0.8;
     for (int i = 0; i < 8; ++i) (slides(s, (low + high) / 2, heading) ? low : high) = (low + high) / 2;
-    most = std::max(most, std::abs((low + high) / 2 / std::tan(slope) - 1));
+    most = worst_of({most, std::abs((low + high) / 2 / std::tan(slope) - 1)});
   }
   return most;
 }
@@ -140,7 +140,7 @@ double slide_to_roll(const Setting& s) {
   for (const double friction : {0.1, 0.3}) {
     ModelRun run = trial(s, balls_on_floor(s, friction, ", velocity: [1, 0, 0]"), step);
     run_until(run, 1.5 * 2 / (7 * friction * g));
-    most = std::max(most, worst(run, [](const ElementState& e) { return e.twist.linear.x() / (5.0 / 7) - 1; }));
+    most = worst_of({most, worst(run, [](const ElementState& e) { return e.twist.linear.x() / (5.0 / 7) - 1; })});
   }
   return most;
 }
@@ -186,8 +186,8 @@ double top(const Setting& s) {
   const double energy = first.twist.angular.dot(momentum(first));
   run_until(run, 10 * 2 * std::numbers::pi / 20);
   return worst(run, [&](const ElementState& e) {
-    return std::max((momentum(e) - momentum(first)).norm() / momentum(first).norm(),
-                    std::abs(e.twist.angular.dot(momentum(e)) / energy - 1));
+    return worst_of({(momentum(e) - momentum(first)).norm() / momentum(first).norm(),
+                     std::abs(e.twist.angular.dot(momentum(e)) / energy - 1)});
   });
 }
 

@@ -42,7 +42,7 @@ double elastic_bounce(const Setting& s) {
           h, {}, 1);
       run_until(run, 1.5 * std::sqrt(2 * from / g));
       const double energy = g * (run.position(1).z() - 0.1) + 0.5 * run.velocity(1).squaredNorm();
-      most = std::max(most, std::abs(energy / (g * from) - 1));
+      most = worst_of({most, std::abs(energy / (g * from) - 1)});
     }
     return most;
   };
@@ -85,7 +85,7 @@ double stack_overlap(const Setting& s) {
     return 0.1 - run.position(1).z();
   };
   if (s.springs()) return std::abs(sunk(1e-3) / (3 * g / 1e6) - 1);
-  return sunk(4e-3) < 1e-7 ? 0 : std::max(0.0, 2 - order(1e-3, sunk));
+  return std::abs(sunk(4e-3)) < 1e-7 ? 0 : worst_of({0, 2 - order(1e-3, sunk)});
 }
 
 }  // namespace

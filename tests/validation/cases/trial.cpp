@@ -50,4 +50,11 @@ void run_until(ModelRun& run, double seconds) {
   run.steps(std::max(0L, std::lround((seconds - run.time()) / run.scene().time.dt)));
 }
 
+double worst_of(std::initializer_list<double> errors) {
+  double most = *errors.begin();
+  for (const double e : errors)
+    if (!(e <= most) && !std::isnan(most)) most = e;
+  return most;
+}
+
 }  // namespace moraine::test

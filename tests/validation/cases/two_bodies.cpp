@@ -41,7 +41,7 @@ Met worst_meeting(const Setting& s) {
   for (const HeadOn& c : head_on)
     for (int phase = 0; phase < 5; ++phase) {
       const Met met = meet(s, c, phase / 5.0);
-      worst = {std::max(worst.momentum, met.momentum), std::max(worst.restitution, met.restitution)};
+      worst = {worst_of({worst.momentum, met.momentum}), worst_of({worst.restitution, met.restitution})};
     }
   return worst;
 }
@@ -87,7 +87,7 @@ double oblique_speeds(const Setting& s) {
     if (s.springs() && c.friction > 0.1) continue;  // what sticks on springs swings back
     ModelRun run = glance(s, c);
     run_until(run, 0.1);
-    most = std::max({most, std::abs(run.velocity(1).x() + 0.8), std::abs(run.velocity(1).y() - c.tangential),
+    most = worst_of({most, std::abs(run.velocity(1).x() + 0.8), std::abs(run.velocity(1).y() - c.tangential),
                      std::abs(std::abs(run.spin(1).z()) * 0.1 - c.spin)});
   }
   return most;
@@ -102,7 +102,7 @@ double oblique_budgets(const Setting& s) {
     run_until(run, 0.1);
     const Budget after = budget_of(run);
     const double speed = 2 * std::hypot(1, 0.9);
-    most = std::max({most, (after.linear - before.linear).norm() / speed,
+    most = worst_of({most, (after.linear - before.linear).norm() / speed,
                      (after.angular - before.angular).norm() / (100 * speed), after.energy / before.energy - 1});
   }
   return most;
