@@ -65,4 +65,4 @@ class Collapse:
         return row
 
 
-ROLLING = ("motion left, a = 0.5", "", "", "one or two spheres still roll down the slope, 0.2 % of the little that falls")
+ROLLING = ("motion left, a = 0.5", "", "", 0.0025, "one or two spheres still roll down the slope, 0.2 % of the little that falls")

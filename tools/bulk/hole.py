@@ -9,7 +9,7 @@ HOLE = Discharge("hole", (5, 6.5, 8), 5 / 2, settled=25, begin=4, window=8, dept
 jobs = jobs_of("hole", Sweep(("impulse",), HOLE.runs()))
 measure, rows = HOLE.measure, HOLE.rows
 CAUSES = [
-    ("C of", "impulse", "", "less friction, more flow: with 0.3 instead of 0.5 C is 0.526 (openings of 5 and 8 d, one seed each). Another code finds 0.49 with 0.5 and 0.548 with 0.3 "
+    ("C of", "impulse", "", 0.025, "less friction, more flow: with 0.3 instead of 0.5 C is 0.526 (openings of 5 and 8 d, one seed each). Another code finds 0.49 with 0.5 and 0.548 with 0.3 "
      "(validation of the DEM module of MOOSE, k = 1.68 and 1.57)"),
-    ("what passes", "impulse", "cut", "3.5 % more from tick 12 to 20 than from tick 4 to 12; whole it is 1.5 %, and three seeds differ by 3 %: through the smallest opening pass a hundred grains"),
+    ("what passes", "impulse", "cut", 0.012, "3.5 % more from tick 12 to 20 than from tick 4 to 12; whole it is 1.5 %, and three seeds differ by 3 %: through the smallest opening pass a hundred grains"),
 ]

@@ -120,5 +120,5 @@ def rows(results):
                      c_high + 0.3)
 
 
-CAUSES = [("contacts per sphere, mu = 10", "", "", "4 is the least that can carry; poured packings with friction keep more, Silbert et al. (2002), "
+CAUSES = [("contacts per sphere, mu = 10", "", "", 0.18, "4 is the least that can carry; poured packings with friction keep more, Silbert et al. (2002), "
            "Phys. Rev. E 65, 031304")]

@@ -16,26 +16,36 @@ def table(case_rows):
             yield f"| {case.TITLE}, {row.name} | {row.answer} | {row.tolerance} | {cells} |"
 
 
+def causes_of(case, row, engine, how):
+    """Those of the case's CAUSES that may be why it is missed. They say: the row begins with, engine, how ("" for any), how far
+    the figure may be outside its tolerance, in its unit, and the cause."""
+    return [c for c in case.CAUSES if row.name.startswith(c[0]) and c[1] in (engine, "") and c[2] in (how, "")]
+
+
 def misses(case_rows):
-    """Lines with causes, and what has none. A case's CAUSES say: the row begins with, engine, how ("" for any), cause."""
-    known, unknown = {}, []
+    """Lines with causes; what has none, or is missed by more than that explains; causes of nothing."""
+    known, unknown, idle = {}, [], []
     for case, rows in case_rows.items():
+        used = []
         for row in rows:
             for engine, how in row.misses():
-                cause = next((c for name, e, h, c in case.CAUSES
-                              if row.name.startswith(name) and e in (engine, "") and h in (how, "")), None)
-                if cause:
-                    known.setdefault((case.TITLE, cause), {}).setdefault(row.name, []).append(f"`{engine}` {how}")
+                excess, causes = row.excess((engine, how)), causes_of(case, row, engine, how)
+                enough = [c for c in causes if excess <= c[3]][:1]
+                used += enough or causes
+                if enough:
+                    known.setdefault((case.TITLE, enough[0][4]), {}).setdefault(row.name, []).append(f"`{engine}` {how}")
                 else:
-                    unknown.append(f"{case.TITLE}, {row.name}: {engine} {how}")
+                    unknown.append(f"{case.TITLE}, {row.name}: {engine} {how}, by {excess:.2g}")
+        idle += [f"{case.TITLE}, " + " ".join(filter(None, c[:3])) for c in case.CAUSES if c not in used]
     lines = [f"- {title}, " + "; ".join(f"{name} ({', '.join(who)})" for name, who in where.items()) + f": {cause}"
              for (title, cause), where in known.items()]
-    return lines, unknown
+    return lines, unknown, idle
 
 
 def text(case_rows):
-    lines, unknown = misses(case_rows)
-    return [*table(case_rows), "", "What is missed, and why:" if lines else "Nothing is missed.", "", *lines], unknown
+    """Lines of the table and of the list; misses of which no cause is known; causes of which there is no miss."""
+    lines, *wrong = misses(case_rows)
+    return [*table(case_rows), "", "What is missed, and why:" if lines else "Nothing is missed.", "", *lines], *wrong
 
 
 def write(lines):

@@ -46,9 +46,14 @@ class Row:
     def add(self, key, values, low, high):
         self.values[key], self.bounds[key] = values, (low, high)
 
-    def missed(self, key):
+    def excess(self, key):
+        """How far the mean is outside its bounds; not more than 0 if it is inside."""
         low, high = self.bounds[key]
-        return not low <= statistics.mean(self.values[key]) <= high
+        mean = statistics.mean(self.values[key])
+        return max(low - mean, mean - high)
+
+    def missed(self, key):
+        return not self.excess(key) <= 0  # NaN is a miss
 
     def figure(self, key):
         mean = statistics.mean(self.values[key])

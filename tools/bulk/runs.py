@@ -2,9 +2,11 @@
 """Runs of the collective cases, several at once, and what is left of each: its figures."""
 import concurrent.futures
 import dataclasses
+import functools
 import glob
 import hashlib
 import importlib
+import itertools
 import json
 import os
 import subprocess
@@ -36,22 +38,43 @@ class Job:
         return " ".join([self.case, self.engine, self.how, *(f"{k}={v}" for k, v in self.settings), f"seed={self.seed}"])
 
 
+def libraries(moraine):
+    """Of engines, in order of names, where the program looks for them: see physics/plugin.cpp."""
+    here = os.path.dirname(os.path.realpath(moraine))
+    beside = (here, os.path.join(here, "lib", "moraine"), os.path.join(os.path.dirname(here), "lib", "moraine"))
+    found = {}
+    for folder in (os.environ["MORAINE_ENGINES"],) if "MORAINE_ENGINES" in os.environ else beside:
+        for path in glob.glob(os.path.join(glob.escape(folder), "moraine_*.so")):
+            found.setdefault(os.path.basename(path), path)
+    return [found[name] for name in sorted(found)]
+
+
+@functools.cache
+def digest(path):
+    with open(path, "rb") as f:
+        return hashlib.sha256(f.read()).digest()
+
+
 def fingerprint(job, moraine):
-    """Of the run: program, scene without its comments, meshes, options. How its figures are measured is not part of it."""
+    """Of the run: program, engines, scene without its comments, meshes, options. How its figures are measured is not part of it."""
     parts = [job.case.encode(), str(job.options()).encode()]
-    for path in (moraine, *sorted(glob.glob(os.path.join(SCENES, "*.obj")))):
-        with open(path, "rb") as f:
-            parts.append(hashlib.sha256(f.read()).digest())
+    for path in (moraine, *libraries(moraine), *sorted(glob.glob(os.path.join(SCENES, "*.obj")))):
+        parts.append(digest(path))
     with open(os.path.join(SCENES, job.case + ".yaml")) as f:
         parts.append("\n".join(line.split("#")[0].rstrip() for line in f).encode())
     return hashlib.sha256(b"".join(parts)).hexdigest()[:16]
+
+
+def environment():
+    """Without variables that stand for options of the command."""
+    return {name: value for name, value in os.environ.items() if name == "MORAINE_ENGINES" or not name.startswith("MORAINE_")}
 
 
 def figures(job, moraine):
     """Runs the job and lets its case measure what the run left."""
     with tempfile.TemporaryDirectory() as out:
         done = subprocess.run([moraine, "run", os.path.join(SCENES, job.case + ".yaml"), "--out", out, "--quiet", "--threads", "1",
-                               *job.options()], capture_output=True, text=True)
+                               *job.options()], env=environment(), capture_output=True, text=True)
         if done.returncode:
             raise RuntimeError(f"{job}: {done.stderr.strip()}")
         with open(os.path.join(out, "summary.json")) as f:
@@ -73,14 +96,20 @@ def remembered(job, moraine, folder):
 
 
 def run_all(jobs, moraine, folder, at_once):
-    """Figures by job."""
+    """Figures by job. If one fails no other is begun: none waits in the pool, which would still do it."""
     os.makedirs(folder, exist_ok=True)
-    begun, results = time.monotonic(), {}
-    with concurrent.futures.ProcessPoolExecutor(at_once) as pool:
-        pending = {pool.submit(remembered, job, moraine, folder): job for job in jobs}
-        for done in concurrent.futures.as_completed(pending):
-            job = pending[done]
-            results[job] = done.result()
-            print(f"{len(results):4} of {len(jobs)}, {time.monotonic() - begun:5.0f} s: {job} ({results[job]['cpu_s']:.1f} s)",
-                  file=sys.stderr)
-    return results
+    begun, results, waiting, pending = time.monotonic(), {}, iter(jobs), {}
+    pool = concurrent.futures.ProcessPoolExecutor(at_once)
+    try:
+        while True:
+            for job in itertools.islice(waiting, at_once - len(pending)):
+                pending[pool.submit(remembered, job, moraine, folder)] = job
+            if not pending:
+                return results
+            for done in concurrent.futures.wait(pending, return_when=concurrent.futures.FIRST_COMPLETED).done:
+                job = pending.pop(done)
+                results[job] = done.result()
+                print(f"{len(results):4} of {len(jobs)}, {time.monotonic() - begun:5.0f} s: {job} ({results[job]['cpu_s']:.1f} s)",
+                      file=sys.stderr)
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)

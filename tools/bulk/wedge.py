@@ -36,7 +36,7 @@ def rows(results):
 
 
 CAUSES = [
-    ("slope gained in", "impulse", "cut", "not that it is cut: wedges rained at 17° and 20° gain 1.12 ± 0.16° whole and 0.76 ± 0.36° cut (six seeds each), nine seeds at 14° "
+    ("slope gained in", "impulse", "cut", 0.5, "not that it is cut: wedges rained at 17° and 20° gain 1.12 ± 0.16° whole and 0.76 ± 0.36° cut (six seeds each), nine seeds at 14° "
      "0.85 ± 0.45° and 1.20 ± 0.34°. Grains at the toe roll ahead, those at the wall pile up"),
-    ("slope gained in", "ode", "whole", "all engines gain some, 0.6 to 1.2, for the same reason; three seeds differ by 0.3"),
+    ("slope gained in", "ode", "whole", 0.4, "all engines gain some, 0.6 to 1.2, for the same reason; three seeds differ by 0.3"),
 ]
