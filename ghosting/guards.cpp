@@ -35,9 +35,10 @@ Worst start(const Watch& w) { return {w.context.start.depth, w.context.start.ele
 Worst overlap(const Watch& w) { return of_all(w.overlap); }
 
 /// Energy that is allowed to come and go: 1/20 of what lifts all elements by a diameter (overlaps that are taken back
-/// lift what lies on them), of the largest kinetic energy (elastic impacts across a cut), and of what swings in bonds
-/// (an explicit step of a spring keeps its energy to within h w / 2, but on average). Ten times that is half of all
-/// there has been, and in a run that blows up nearly all is gained: so the limit that stops is reached then.
+/// lift what lies on them), of the largest kinetic energy (dense flow with restitution across a cut), and of what
+/// swings in bonds (an explicit step of a spring keeps its energy to within h w / 2, but on average). Ten times that is
+/// half of all there has been, and in a run that blows up nearly all is gained: so the limit that stops is reached
+/// then.
 Worst energy(const Watch& w) {
   const double unit = w.context.world.length_unit / w.context.world.time_unit;
   const double lift = w.context.scene->gravity.isZero() ? 0 : w.accounts.opening.mass * unit * unit;
