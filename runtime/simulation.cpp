@@ -146,8 +146,11 @@ void Simulation::run_epoch(const Epoch& epoch) {
   const std::optional<RunError> error = attempt(graph, epoch);
   phases_.enter(Phase::agree);
   const std::optional<RunError> first = first_failure(transport_, error);
-  if (first && recorder_) recorder_->flush();
-  if (first) throw RunError(*first);
+  if (first) {
+    if (recorder_) recorder_->flush();
+    transport_.drop_parcels();
+    throw RunError(*first);
+  }
   phases_.enter(Phase::balance);
   load_.merge(last_);
   mail_.close_epoch();

@@ -91,6 +91,8 @@ class Mpi final : public Transport {
   explicit Mpi(MPI_Comm communicator) : parcels_(communicator), exchanges_(communicator) {
     MPI_Comm_rank(parcels_.get(), &rank_);
     MPI_Comm_size(parcels_.get(), &ranks_);
+    sent_to_.resize(static_cast<std::size_t>(ranks_));
+    received_from_.resize(static_cast<std::size_t>(ranks_));
   }
   ~Mpi() override {
     for (Outgoing& o : outgoing_) MPI_Wait(&o.request, MPI_STATUS_IGNORE);
@@ -104,12 +106,13 @@ class Mpi final : public Transport {
     const std::lock_guard lock(mutex_);
     Outgoing& o = outgoing_.emplace_back();
     o.bytes = std::move(bytes);
+    ++sent_to_[static_cast<std::size_t>(to)];
     MPI_Isend(o.bytes.data(), static_cast<int>(o.bytes.size()), MPI_BYTE, to, parcel_tag, parcels_.get(), &o.request);
   }
 
   std::optional<Parcel> receive() override {
     const std::lock_guard lock(mutex_);
-    outgoing_.remove_if([](Outgoing& o) { return sent(o); });
+    outgoing_.remove_if([](Outgoing& o) { return is_gone(o); });
     MPI_Message message = MPI_MESSAGE_NULL;
     MPI_Status status;
     int found = 0;
@@ -119,6 +122,7 @@ class Mpi final : public Transport {
     MPI_Get_count(&status, MPI_BYTE, &count);
     Parcel parcel{status.MPI_SOURCE, Bytes(static_cast<std::size_t>(count))};
     MPI_Mrecv(parcel.bytes.data(), count, MPI_BYTE, &message, MPI_STATUS_IGNORE);
+    ++received_from_[static_cast<std::size_t>(parcel.from)];
     return parcel;
   }
 
@@ -151,6 +155,17 @@ class Mpi final : public Transport {
     }
     transfers.wait();
     return from;
+  }
+
+  void drop_parcels() override {
+    std::vector<std::uint64_t> coming(sent_to_.size());
+    {
+      const std::lock_guard lock(mutex_);
+      MPI_Alltoall(sent_to_.data(), 1, MPI_UINT64_T, coming.data(), 1, MPI_UINT64_T, exchanges_.get());
+    }
+    while (received_from_ != coming) receive();
+    const std::lock_guard lock(mutex_);
+    MPI_Barrier(exchanges_.get());  // nobody sends again before all have dropped
   }
 
   [[noreturn]] void abort(int status) override {
@@ -201,7 +216,7 @@ class Mpi final : public Transport {
     return all;
   }
 
-  static bool sent(Outgoing& o) {
+  static bool is_gone(Outgoing& o) {
     int done = 0;
     MPI_Test(&o.request, &done, MPI_STATUS_IGNORE);
     return done != 0;
@@ -209,8 +224,9 @@ class Mpi final : public Transport {
 
   Communicator parcels_, exchanges_;
   int rank_ = 0, ranks_ = 1;
-  std::mutex mutex_;              ///< MPI is called by one thread at a time
-  std::list<Outgoing> outgoing_;  ///< until MPI has them
+  std::mutex mutex_;                                    ///< MPI is called by one thread at a time
+  std::list<Outgoing> outgoing_;                        ///< until MPI has them
+  std::vector<std::uint64_t> sent_to_, received_from_;  ///< parcels, by rank
 };
 
 }  // namespace

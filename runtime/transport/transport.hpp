@@ -30,7 +30,7 @@ class Transport {
   /// A parcel that has arrived, if there is one. From any thread.
   virtual std::optional<Parcel> receive() = 0;
 
-  // The next three are called by all ranks, in the same order, while none sends or receives.
+  // The next four are called by all ranks, in the same order, while none sends or receives.
 
   /// What every rank gives, by rank, on every rank. Cost: a number of messages per rank that grows as the logarithm of
   /// the ranks while all that is given is short.
@@ -40,6 +40,9 @@ class Transport {
   /// `to` has one entry per rank, and so has what comes back. An entry may be empty. Cost: the lengths as in
   /// all_gather(), and one message for every entry that is not empty.
   virtual std::vector<Bytes> exchange(std::vector<Bytes> to) = 0;
+  /// Drops all parcels that were sent and not received: after a failure nobody wants them, and a long one keeps its
+  /// sender until it is received.
+  virtual void drop_parcels() = 0;
 
   /// Ends the processes of all ranks, this one too, with this exit status.
   [[noreturn]] virtual void abort(int status) = 0;

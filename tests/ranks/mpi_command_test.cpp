@@ -62,9 +62,46 @@ TEST_F(Mpi, AnErrorIsSaidOnceAndEndsAllRanks) {
   EXPECT_NE(ended.text.find("bound_update of sub-model"), std::string::npos) << ended.text;
 }
 
+/// Sub-model 6 fails while the other rank's results, too long to be sent before they are asked for, are on their way.
+TEST_F(Mpi, AnErrorEndsRanksThatStillSend) {
+  fs::create_directories(out_);
+  std::ofstream(out_ / "scene.yaml") << R"(
+gravity: [0, 0, -9.81]
+materials: {grain: {density: 1000, friction: 0.5}}
+elements:
+  - {packing: cubic, shape: {sphere: 0.5}, cells: [70, 24, 24], material: grain, at: [0, 0, 0]}
+  - {packing: list, shape: {sphere: 0.5}, material: grain, items: [{at: [68, 12, 60]}]}
+boundaries: [{plane: {normal: [0, 0, 1]}, material: grain}]
+time: {dt: 1 / 100, steps: 200}
+run: {engine: impulse, sub_models: 7, split: slabs, owners: [2, 5], threads: 1}
+output: {pictures: false, every: 0}
+)";
+  for (const char* limit : {"1", "2", "3"}) {
+    const Ended ended =
+        shell("timeout -k 1 60 " + test::mpirun(2, "--mca btl_vader_eager_limit 128 ") + MORAINE_COMMAND + " run " +
+              out_.string() + "/scene.yaml --quiet --out " + out_.string() + " --set run.max_speed=" + limit);
+    EXPECT_EQ(ended.status, 3) << ended.text;
+  }
+}
+
 TEST_F(Mpi, WrongInputEndsAllRanks) {
   const Ended ended = run(3, "--set nonsense.key=1");
   EXPECT_EQ(ended.status, 2) << ended.text;
+}
+
+TEST_F(Mpi, RefusesRanksThatWouldRunSomethingElse) {
+  const std::string own = "sh -c 'test $OMPI_COMM_WORLD_RANK = 0 || export MORAINE_";
+  const auto refused = [&](const std::string& variable, const std::string& part) {
+    const std::string command = "timeout -k 1 60 " + test::mpirun(2) + own + variable +
+                                "; exec " MORAINE_COMMAND " run " +
+                                MORAINE_SOURCE_DIR "/apps/scenes/dam.yaml --set count=100 --out " + out_.string() + "'";
+    const Ended ended = shell(command);
+    EXPECT_EQ(ended.status, 2) << ended.text;
+    EXPECT_NE(ended.text.find("rank 1 has " + part), std::string::npos) << ended.text;
+  };
+  refused("ITERATIONS=3", "a scene of identity");
+  refused("STEPS=7", "7 steps of 1 substeps, rank 0 ");
+  refused("THREADS=1", "threads stated, rank 0 threads not stated");
 }
 
 TEST_F(Mpi, RefusesOwnersThatDoNotAddUp) {

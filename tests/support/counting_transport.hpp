@@ -49,6 +49,7 @@ class CountingTransport final : public Transport {
     collectives_ += counting_;
     return inner_.exchange(std::move(to));
   }
+  void drop_parcels() override { inner_.drop_parcels(); }
   [[noreturn]] void abort(int status) override {
     inner_.abort(status);
     std::terminate();  // not reached

@@ -16,9 +16,9 @@ struct Ended {
 };
 
 /// The shell's words before a program that is to run on so many ranks; 0: without mpirun.
-inline std::string mpirun(int ranks) {
+inline std::string mpirun(int ranks, const std::string& options = "") {
   if (ranks == 0) return "";
-  return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -np " +
+  return "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe " + options + "-np " +
          std::to_string(ranks) + " ";
 }
 
