@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "ghosting/auto_count.hpp"
 #include "physics/errors.hpp"
@@ -30,6 +31,38 @@ void check_step(const Scene& scene, const Engine& engine) {
                   "a smaller time.dt or at least {:.0f} substeps",
                   scene.source, scene.time.substep(), engine.name, limit.substep, limit.reason,
                   std::ceil(scene.time.dt / limit.substep)));
+}
+
+/// Where the plane is next to the box.
+Bounds beside(const Plane& plane, const Pose& pose, const Bounds& box) {
+  const Vec3 normal = pose.orientation * plane.normal.normalized();
+  const Vec3 through = pose.position + pose.orientation * plane.point;
+  Bounds feet;
+  for (const double x : {box.min.x(), box.max.x()})
+    for (const double y : {box.min.y(), box.max.y()})
+      for (const double z : {box.min.z(), box.max.z()})
+        feet.add(Vec3(x, y, z) - normal * normal.dot(Vec3(x, y, z) - through));
+  return feet;
+}
+
+Bounds bounds_of(const Boundary& b, const Scene& scene, const Bounds& elements) {
+  if (const auto* plane = std::get_if<Plane>(&b.geometry)) return beside(*plane, b.pose, elements);
+  Bounds box;
+  if (const auto* mesh = std::get_if<TriangleMesh>(&b.geometry))
+    for (const Vec3& v : mesh->vertices) box.add(b.pose.position + b.pose.orientation * v);
+  else
+    box.add(b.pose.position, scene.shapes[std::get<Solid>(b.geometry).shape].bounding_radius);
+  return box;
+}
+
+/// The elements, and what they can fall on.
+Bounds whole(const Scene& scene) {
+  Bounds elements;
+  for (const Element& e : scene.elements) elements.add(e.state.pose.position, scene.shape_of(e).bounding_radius);
+  if (elements.empty()) return elements;
+  Bounds box = elements;
+  for (const Boundary& b : scene.boundaries) box.add(bounds_of(b, scene, elements));
+  return box;
 }
 
 }  // namespace
@@ -68,19 +101,24 @@ std::size_t part_count(const Scene& scene, const Engine& engine, const Limits& l
   return parts;
 }
 
+double driven_speed(const Scene& scene, const Bounds& box, double from, double to) {
+  double speed = 0;
+  for (const Boundary& b : scene.boundaries) {
+    const Twist& v = b.motion.velocity;
+    const double arm = box.empty() ? 0 : box.farthest(b.motion.centre);
+    if (b.motion.start < to && b.motion.stop > from) speed = std::max(speed, v.linear.norm() + v.angular.norm() * arm);
+  }
+  return speed;
+}
+
 double runaway_speed(const Scene& scene) {
   if (scene.run.max_speed > 0) return scene.run.max_speed;
-  Bounds box;
-  double speed = 0;
-  for (const Element& e : scene.elements) {
-    box.add(e.state.pose.position, scene.shape_of(e).bounding_radius);
+  const Bounds box = whole(scene);
+  double speed = driven_speed(scene, box, 0, std::numeric_limits<double>::infinity());
+  for (const Element& e : scene.elements)
     speed =
         std::max(speed, e.state.twist.linear.norm() + e.state.twist.angular.norm() * scene.shape_of(e).bounding_radius);
-  }
   const double extent = box.empty() ? 1.0 : (box.max - box.min).norm();
-  for (const Boundary& b : scene.boundaries)
-    if (b.motion.moves())
-      speed = std::max(speed, b.motion.velocity.linear.norm() + b.motion.velocity.angular.norm() * extent);
   const double fall = std::sqrt(2 * scene.gravity.norm() * extent);
   const double bond_speed = scene.typical_diameter() / scene.time.substep();
   return 10 * (speed + fall) + (scene.gravity.isZero() && speed == 0 ? bond_speed : 0);

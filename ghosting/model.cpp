@@ -230,14 +230,12 @@ runtime::EpochPlan CoupledModel::begin_epoch(std::int64_t next_round, std::int64
     epoch_begin_ = next_round;
     open_epoch();
   }
-  const std::int64_t until_mark = marked_round() - next_round;
-  return {std::min({at_most, epoch_end_ - next_round, until_mark > 0 ? until_mark : at_most}),
-          !interrupted && !restored};
+  if (next_round < marked_round()) at_most = std::min(at_most, marked_round() - next_round);
+  return {std::min(at_most, epoch_end_ - next_round), !interrupted && !restored};
 }
 
 std::int64_t CoupledModel::marked_round() const {
-  const TimeSettings& time = scene().time;
-  return std::llround(averaged_from * static_cast<double>(time.steps * time.substeps));
+  return std::llround(averaged_from * static_cast<double>(scene().time.steps * scene().time.substeps));
 }
 
 void CoupledModel::conclude(std::int64_t round) { look(round, overlaps().max); }
@@ -291,7 +289,9 @@ bool CoupledModel::should_recut() const {
 void CoupledModel::settle_neighbours(const std::vector<Report>& reports) {
   std::vector<Reach> reaches;
   for (const Report& r : reports) reaches.push_back({r.bounds, r.max_speed});
-  const Neighbourhood near = find_neighbours(reaches, context_.world.length_unit, scene().gravity.norm(),
+  const double now = static_cast<double>(epoch_begin_) * context_.world.substep;
+  const double driven = driven_speed(scene(), all_of(reaches), now, now + longest_epoch * context_.world.substep);
+  const Neighbourhood near = find_neighbours(reaches, driven, context_.world.length_unit, scene().gravity.norm(),
                                              context_.world.substep, longest_epoch);
   epoch_end_ = epoch_begin_ + near.rounds;
 

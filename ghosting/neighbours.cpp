@@ -18,9 +18,7 @@ double travel(double speed, double gravity, double substep, std::int64_t rounds)
 }
 
 int widest_axis(std::span<const Reach> reaches) {
-  Bounds all;
-  for (const Reach& r : reaches)
-    if (!r.bounds.empty()) all.add(r.bounds);
+  const Bounds all = all_of(reaches);
   int axis = 0;
   (all.max - all.min).maxCoeff(&axis);
   return axis;
@@ -48,9 +46,16 @@ std::vector<std::pair<SubModelId, SubModelId>> pairs_within(std::span<const Reac
 
 }  // namespace
 
-Neighbourhood find_neighbours(std::span<const Reach> reaches, double diameter, double gravity, double substep,
-                              std::int64_t at_most) {
-  double speed = 0;
+Bounds all_of(std::span<const Reach> reaches) {
+  Bounds all;
+  for (const Reach& r : reaches)
+    if (!r.bounds.empty()) all.add(r.bounds);
+  return all;
+}
+
+Neighbourhood find_neighbours(std::span<const Reach> reaches, double driven, double diameter, double gravity,
+                              double substep, std::int64_t at_most) {
+  double speed = driven;
   for (const Reach& r : reaches) speed = std::max(speed, r.max_speed);
   const std::int64_t wish = std::min(most_rounds, at_most);
   Neighbourhood out;

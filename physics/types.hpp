@@ -72,6 +72,8 @@ struct Bounds {
   bool overlaps(const Bounds& o) const {
     return (min.array() <= o.max.array()).all() && (o.min.array() <= max.array()).all();
   }
+  /// Distance from a point to the farthest corner [m].
+  double farthest(const Vec3& p) const { return (max - p).cwiseAbs().cwiseMax((p - min).cwiseAbs()).norm(); }
   /// Distance from a point to the box [m]; 0 inside.
   double distance(const Vec3& p) const { return beyond(p).norm(); }
   /// Whether a point is that close to the box [m].

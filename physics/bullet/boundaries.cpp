@@ -21,7 +21,7 @@ btCollisionShape* BulletWorld::shape(std::uint32_t index) {
 }
 
 /// A plane is placed at the foot of the perpendicular from the sub-model's origin, where float32 is finest.
-btTransform BulletWorld::boundary_pose(const Boundary& boundary, double t) const {
+Pose BulletWorld::boundary_pose(const Boundary& boundary, double t) const {
   Pose pose = boundary.motion.pose(boundary.pose, t);
   if (const auto* plane = std::get_if<Plane>(&boundary.geometry)) {
     const Vec3 normal = pose.orientation * plane->normal.normalized();
@@ -29,7 +29,7 @@ btTransform BulletWorld::boundary_pose(const Boundary& boundary, double t) const
     const Vec3 here = units_.position(btVector3(0, 0, 0));
     pose.position = here + normal * normal.dot(through - here);
   }
-  return units_.pose(pose);
+  return pose;
 }
 
 void BulletWorld::add_boundaries() {
@@ -42,7 +42,7 @@ void BulletWorld::add_boundaries() {
     e->body->setUserPointer(&e->tag);
     apply_body_settings(*e->body, true);
     if (b.motion.moves()) e->body->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
-    e->body->setCenterOfMassTransform(boundary_pose(b, 0));
+    e->body->setCenterOfMassTransform(units_.pose(boundary_pose(b, 0)));
     dynamics_.addRigidBody(e->body.get(), boundary_group, real_group);
     boundaries_.push_back(std::move(e));
   }
@@ -56,9 +56,11 @@ void BulletWorld::move_boundaries(double t) {
     const Vec3 from = b.motion.pose(b.pose, t).position;
     const Vec3 to = b.motion.pose(b.pose, t + settings_.substep).position;
     const Twist middle = b.motion.twist(b.pose, t + settings_.substep / 2);
+    const Pose placed = boundary_pose(b, t);
+    const Vec3 velocity = (to - from) / settings_.substep + middle.angular.cross(placed.position - from);
     btRigidBody& body = *boundaries_[i]->body;
-    body.setCenterOfMassTransform(boundary_pose(b, t));
-    body.setLinearVelocity(Units::raw(Vec3((to - from) / settings_.substep / units_.velocity())));
+    body.setCenterOfMassTransform(units_.pose(placed));
+    body.setLinearVelocity(Units::raw(Vec3(velocity / units_.velocity())));
     body.setAngularVelocity(Units::raw(Vec3(middle.angular * units_.time)));
   }
 }

@@ -62,7 +62,7 @@ class BulletWorld final : public World {
   btVector3 inertia(std::uint32_t shape, double mass) const;
   void add_boundaries();
   void move_boundaries(double t);
-  btTransform boundary_pose(const Boundary& boundary, double t) const;
+  Pose boundary_pose(const Boundary& boundary, double t) const;
   void sum_boundary_impulse();
   Vec3 boundary_velocity(std::size_t boundary, const Vec3& point) const;
   void use_pair_laws() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/ode/walls.hpp"
 
+#include <algorithm>
 #include <array>
 #include <mutex>
 
@@ -28,10 +29,13 @@ WallTouches::WallTouches(const Scene& scene, const Units& units)
   for (std::size_t w = 0; w < solids_.size(); ++w) {
     Solid& s = solids_[w];
     s.surfaces = native::surfaces(scene.boundaries[w], scene, Pose{});
-    if (!s.surfaces.empty() && std::holds_alternative<native::Triangle>(s.surfaces[0]))
-      s.mesh = std::make_unique<Mesh>(s.surfaces, 1 / units.length);
-    else
-      for (const native::Surface& surface : s.surfaces) s.pieces.push_back(make_piece(surface, 1 / units.length));
+    const auto triangles = std::stable_partition(s.surfaces.begin(), s.surfaces.end(), [](const auto& surface) {
+      return !std::holds_alternative<native::Triangle>(surface);
+    });
+    for (auto piece = s.surfaces.begin(); piece != triangles; ++piece)
+      s.pieces.push_back(make_piece(*piece, 1 / units.length));
+    if (triangles != s.surfaces.end())
+      s.mesh = std::make_unique<Mesh>(std::span(triangles, s.surfaces.end()), 1 / units.length);
     place_solid(w, 0);
   }
 }

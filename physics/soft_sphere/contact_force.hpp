@@ -66,7 +66,8 @@ Push push(const ContactLaw& law, const Meeting& m, double h, Springs& springs) {
   const double normal_force = law.stiffness * a * m.overlap - damping * closing;
   Push out{normal_force * m.normal, Vec3::Zero(), Vec3::Zero()};
   if constexpr (!Uses::friction) return out;
-  if (Uses::hertz && closing < 0) springs.sliding *= std::sqrt(std::max(0.0, m.overlap + h * closing) / m.overlap);
+  if (Uses::hertz && closing < 0 && m.overlap > 0)
+    springs.sliding *= std::sqrt(std::max(0.0, m.overlap + h * closing) / m.overlap);
   const Vec3 slip = m.velocity - closing * m.normal - m.turning.cross(m.normal);
   const double stiffness = law.tangential * a, side_damping = tangential_damping * damping;
   const double load = std::abs(normal_force);

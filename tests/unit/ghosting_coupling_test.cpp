@@ -147,7 +147,7 @@ TEST(Neighbours, AreAllThatCanMeetAndRoundsHold) {
     }
     const double g = seed % 2 ? 9.81 : 0, h = 1.0 / 240;
     const auto at_most = static_cast<std::int64_t>(dice.in(1, 200));
-    const Neighbourhood near = find_neighbours(reaches, 1, g, h, at_most);
+    const Neighbourhood near = find_neighbours(reaches, 0, 1, g, h, at_most);
     EXPECT_GE(near.rounds, 1);
     EXPECT_LE(near.rounds, at_most);
     EXPECT_TRUE(std::is_sorted(near.pairs.begin(), near.pairs.end()));
@@ -166,13 +166,13 @@ TEST(Neighbours, AreAllThatCanMeetAndRoundsHold) {
 TEST(Neighbours, EmptySubModelsHaveNone) {
   std::vector<Reach> reaches(3);
   reaches[0].bounds = reaches[2].bounds = {Vec3(0, 0, 0), Vec3(1, 1, 1)};
-  const Neighbourhood near = find_neighbours(reaches, 1, 9.81, 0.01, 50);
+  const Neighbourhood near = find_neighbours(reaches, 0, 1, 9.81, 0.01, 50);
   EXPECT_EQ(near.pairs, (std::vector<std::pair<SubModelId, SubModelId>>{{0, 2}}));
 }
 
 TEST(Neighbours, RoundsShrinkWithSpeedAndWithTheRoundsLeft) {
   const auto rounds = [](double speed, std::int64_t at_most) {
-    return find_neighbours(std::vector<Reach>{{{Vec3::Zero(), Vec3::Ones()}, speed}}, 1, 9.81, 1.0 / 240, at_most)
+    return find_neighbours(std::vector<Reach>{{{Vec3::Zero(), Vec3::Ones()}, speed}}, 0, 1, 9.81, 1.0 / 240, at_most)
         .rounds;
   };
   EXPECT_EQ(rounds(0, 1), 1);

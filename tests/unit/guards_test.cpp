@@ -112,6 +112,14 @@ TEST(Guards, WarnOfTunnellingBeforeItHappens) {
 }
 
 /// In a step it goes from 0.17 m before the wall to 0.17 m behind it: engines do not look that far ahead.
+/// What falls far for its size does not run away: there is a floor down there.
+TEST(Guards, LetASmallBallFallFar) {
+  const std::string scene = spheres("{id: 1, at: [0, 0, 50]}", "restitution: 0", floor_at_zero);
+  ModelRun run(scene_of(scene, {set("time.steps", 3500)}));
+  EXPECT_NO_THROW(run.go());
+  EXPECT_NEAR(run.position(1).z(), 0.1, 0.01);
+}
+
 TEST(Guards, StopWhenAnElementHasLeftItsContainer) {
   const std::string scene =
       spheres("{id: 4, at: [0.19, 0, 0], velocity: [90, 0, 0]}", "restitution: 1", weightless + box);

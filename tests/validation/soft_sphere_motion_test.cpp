@@ -165,5 +165,17 @@ TEST(SoftRest, FloorCarriesTheWeight) {
   EXPECT_LT(run.kinetic_energy(), 1e-12);
 }
 
+/// Neighbours in a lattice just touch: some overlap by nothing but rounding, or by exactly nothing.
+TEST(SoftMotion, HertzSpheresThatJustTouchHaveForces) {
+  for (const double radius : {0.005, 0.03, 0.1, 0.7}) {
+    ModelRun run(
+        scene_of("materials: {grain: {density: 2500, friction: 0.5, young: 1e7}}\nelements:\n  - {packing: hcp, "
+                 "shape: {sphere: r}, cells: [12, 12, 12]}\nparameters: {r: 1}\nboundaries: [{plane: {normal: "
+                 "[0, 0, 1]}}]\ntime: {dt: 1e-5, steps: 20}\nrun: {engine: soft_sphere}\n",
+                 {set("r", radius)}));
+    EXPECT_NO_THROW(run.go()) << radius;
+  }
+}
+
 }  // namespace
 }  // namespace moraine
