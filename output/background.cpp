@@ -5,6 +5,7 @@
 
 #include "output/file.hpp"
 #include "output/picture.hpp"
+#include "output/writers.hpp"
 
 namespace moraine {
 namespace {
@@ -81,8 +82,9 @@ std::optional<Frame> BackgroundWriter::next() {
 
 void BackgroundWriter::write(Frame frame) {
   for (const auto& writer : writers_) writer->write(frame);
-  if (scene_.output.pictures && !last_) {
-    write_picture(scene_, frame, folder_ / "first.png", scene_.output.picture_width);
+  const std::filesystem::path first = folder_ / "first.png";
+  if (scene_.output.pictures && !last_ && !goes_on(scene_, first)) {
+    write_picture(scene_, frame, first, scene_.output.picture_width);
   }
   if (scene_.output.pictures) last_ = std::move(frame);
 }

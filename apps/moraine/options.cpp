@@ -49,6 +49,9 @@ std::string environment_name(std::string_view flag) {
   return name;
 }
 
+/// An empty value would count as none: `--restart "$folder"` would begin anew if the variable is not set.
+std::string refuse_empty(const std::string& value) { return value.empty() ? "is empty, expected a value" : ""; }
+
 }  // namespace
 
 std::vector<Override> environment_overrides() {
@@ -70,7 +73,8 @@ void SceneOptions::add_to(CLI::App& command) {
   values_.resize(table.size());
   command.add_option("scene", file_, "scene file")->required();
   command.add_option("--set", sets_, "parameter=value or path.to.key=value; may be repeated")->take_all()->expected(1);
-  for (std::size_t i = 0; i < table.size(); ++i) command.add_option(table[i].flag, values_[i], table[i].help);
+  for (std::size_t i = 0; i < table.size(); ++i)
+    command.add_option(table[i].flag, values_[i], table[i].help)->check(refuse_empty);
 }
 
 Scene SceneOptions::read() const {

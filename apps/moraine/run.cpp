@@ -9,6 +9,7 @@
 #include <iostream>
 #include <optional>
 
+#include "alike.hpp"
 #include "capture.hpp"
 #include "commands.hpp"
 #include "identity.hpp"
@@ -55,13 +56,15 @@ std::filesystem::path checkpoint_folder(const Scene& scene) { return folder_of(s
 /// The folder that --restart means.
 std::filesystem::path restart_folder(const Scene& scene) {
   if (scene.run.restart != "latest") return scene.run.restart;
+  const auto own = runtime::list_checkpoints(checkpoint_folder(scene), identity(scene));
+  if (!own.empty()) return own.front();
   const auto complete = runtime::list_checkpoints(checkpoint_folder(scene));
   if (complete.empty())
     throw InputError(
         fmt::format("--restart latest: {} holds no complete checkpoint, expected one made with "
                     "--checkpoint-every",
                     checkpoint_folder(scene).string()));
-  return complete.front();
+  return complete.front();  // of another run, which is said when it is refused
 }
 
 /// A run in progress: the model, where its results go (from rank 0), and the clock.
@@ -74,7 +77,7 @@ class Run {
         simulation_(model_, options(scene, transport),
                     {.until_next_stop = [this](std::int64_t round) { return until_next_frame(round); },
                      .at_epoch_end = [this](std::int64_t round) { epoch_done(round); }}),
-        first_round_(scene.run.restart.empty() ? 0 : simulation_.restore(restart_folder(scene))),
+        first_round_(restored()),
         progress_(scene, scene.output.quiet || !writes(), first_round_ / scene.time.substeps) {
     if (writes()) writer_.emplace(scene, folder_of(scene));
   }
@@ -119,6 +122,18 @@ class Run {
                .rounds_per_step = substeps};
     o.status_of = status_of;
     return o;
+  }
+
+  /// The first round to run. All ranks restore the same checkpoint, so an error is one of all.
+  std::int64_t restored() {
+    if (scene_.run.restart.empty()) return 0;
+    const std::filesystem::path folder = restart_folder(scene_);
+    const std::int64_t round = simulation_.restore(folder);
+    const std::int64_t substeps = scene_.time.substeps;
+    if (round > rounds())
+      throw InputError(fmt::format("{}: the checkpoint is of step {}, expected at most the {} steps of this run",
+                                   folder.string(), (round + substeps - 1) / substeps, scene_.time.steps));
+    return round;
   }
 
   bool writes() const { return transport_.rank() == 0; }
@@ -211,6 +226,7 @@ Summary run_all(const Scene& scene, runtime::Transport& transport) {
 }  // namespace
 
 int run(const Scene& scene, runtime::Transport& transport) {
+  check_alike(scene, transport);
   const bool first = transport.rank() == 0;
   if (first) check_folder(folder_of(scene));
   if (first) check_trace(scene.run.trace);

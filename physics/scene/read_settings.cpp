@@ -13,9 +13,11 @@ namespace moraine {
 namespace {
 
 constexpr int most = std::numeric_limits<int>::max();
+constexpr int most_threads = 4096;
+constexpr int most_pixels = 4096;
 
-int read_int(const Node& node, const std::string& key, int fallback, int low) {
-  return static_cast<int>(node.integer(key, fallback, low, most));
+int read_int(const Node& node, const std::string& key, int fallback, int low, int high = most) {
+  return static_cast<int>(node.integer(key, fallback, low, high));
 }
 
 double read_fraction(const Node& node, const std::string& key, double fallback) {
@@ -32,6 +34,17 @@ std::int64_t read_steps(const Node& node, double dt) {
   if (steps > most_steps)
     duration.fail(fmt::format("the duration is {} steps, expected at most {}", steps, most_steps));
   return static_cast<std::int64_t>(std::max(steps, 0.0));
+}
+
+/// Rounds are counted in 64 bits.
+int read_substeps(const Node& node, std::int64_t steps) {
+  const int substeps = read_int(node, "substeps", 1, 1);
+  const std::int64_t most_steps = std::numeric_limits<std::int64_t>::max() / substeps;
+  if (steps > most_steps)
+    node.at("substeps")
+        .fail(fmt::format("{} steps of {} substeps cannot be counted, expected at most {} steps", steps, substeps,
+                          most_steps));
+  return substeps;
 }
 
 void read_label(const Node& node, TimeSettings::Label& label) {
@@ -82,7 +95,7 @@ void read_time(const Node& root, TimeSettings& time) {
   node.allow({"dt", "steps", "duration", "substeps", "label"});
   time.dt = node.at("dt", "the length of a step [s]").positive();
   time.steps = read_steps(node, time.dt);
-  time.substeps = read_int(node, "substeps", time.substeps, 1);
+  time.substeps = read_substeps(node, time.steps);
   if (const auto label = node.find("label")) read_label(*label, time.label);
 }
 
@@ -113,7 +126,7 @@ void read_run(const Node& root, RunSettings& run) {
   run.iterations = read_int(*node, "iterations", run.iterations, 1);
   run.overlap_recovery = read_fraction(*node, "overlap_recovery", run.overlap_recovery);
   run.scheduler = node->text("scheduler", run.scheduler);
-  run.threads = read_int(*node, "threads", run.threads, 0);
+  run.threads = read_int(*node, "threads", run.threads, 0, most_threads);
   run.balancer = node->text("balancer", run.balancer);
   run.owners = read_owners(*node);
   run.balance_every = read_int(*node, "balance_every", run.balance_every, 1);
@@ -134,7 +147,7 @@ void read_output(const Node& root, OutputSettings& output) {
   output.quiet = node->boolean("quiet", output.quiet);
   output.every = read_int(*node, "every", output.every, 0);
   output.pictures = node->boolean("pictures", output.pictures);
-  output.picture_width = static_cast<int>(node->integer("picture_width", output.picture_width, 16, 16384));
+  output.picture_width = read_int(*node, "picture_width", output.picture_width, 16, most_pixels);
   const auto formats = node->find("formats");
   if (!formats) return;
   output.formats.clear();

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "runtime/balance/initial_owners.hpp"
 #include "runtime/balance/rebalance.hpp"
@@ -34,6 +36,22 @@ json read_manifest(const fs::path& folder) {
                        reinterpret_cast<const char*>(text.data()) + text.size());
   } catch (const std::exception& e) {
     throw CheckpointError(fmt::format("{}: no complete checkpoint: {}", folder.string(), e.what()));
+  }
+}
+
+/// Which run made a checkpoint, before which round.
+struct Origin {
+  std::string run;
+  std::int64_t round = 0;
+};
+
+/// None if there is no checkpoint, or none that can be read.
+std::optional<Origin> origin_of(const fs::path& folder) {
+  try {
+    const json manifest = read_manifest(folder);
+    return Origin{manifest.at("run").get<std::string>(), manifest.at("round").get<std::int64_t>()};
+  } catch (const std::exception&) {
+    return std::nullopt;
   }
 }
 
@@ -95,11 +113,11 @@ void agree(Transport& transport, const std::string& problem) {
     if (!told.empty()) throw CheckpointError(std::string(reinterpret_cast<const char*>(told.data()), told.size()));
 }
 
-/// Another complete checkpoint beside a bad one, as a hint.
-std::string alternative(const fs::path& bad) {
-  for (const fs::path& other : list_checkpoints(fs::absolute(bad).lexically_normal().parent_path()))
+/// Another complete checkpoint of the run beside a bad one, as a hint.
+std::string alternative(const fs::path& bad, const std::string& run) {
+  for (const fs::path& other : list_checkpoints(fs::absolute(bad).lexically_normal().parent_path(), run))
     if (other.filename() != bad.filename()) return fmt::format("; {} is there to restart from", other.string());
-  return "; there is no other";
+  return "; there is no other of this run";
 }
 
 }  // namespace
@@ -114,13 +132,26 @@ std::vector<fs::path> list_checkpoints(const fs::path& folder) {
   return found;
 }
 
+std::vector<fs::path> list_checkpoints(const fs::path& folder, const std::string& run) {
+  std::vector<fs::path> found = list_checkpoints(folder);
+  std::erase_if(found, [&](const fs::path& checkpoint) {
+    const auto origin = origin_of(checkpoint);
+    return !origin || origin->run != run;
+  });
+  return found;
+}
+
 Checkpoints::Checkpoints(const CheckpointOptions& options, Transport& transport)
     : options_(options), transport_(transport) {}
 
 Checkpoints::~Checkpoints() = default;
 
-fs::path Checkpoints::folder_of(std::int64_t round) const {
-  return options_.folder / fmt::format("round_{:012}", round);
+/// The name of a checkpoint of this run. One of another run that has it keeps it.
+fs::path Checkpoints::place(const char* kind, std::int64_t round) const {
+  const fs::path plain = options_.folder / fmt::format("{}_{:012}", kind, round);
+  const auto there = origin_of(plain);
+  if (!fs::exists(plain) || (there && there->run == options_.run)) return plain;
+  return plain.string() + "_" + hex(XXH3_64bits(options_.run.data(), options_.run.size()));
 }
 
 fs::path Checkpoints::unfinished(std::int64_t round) const {
@@ -171,9 +202,21 @@ void Checkpoints::finish() {
   const std::string page = manifest.dump(1) + "\n";
   const auto* bytes = reinterpret_cast<const std::byte*>(page.data());
   write_durably(unfinished(round) / manifest_name, Bytes(bytes, bytes + page.size()));
-  rename_durably(unfinished(round), folder_of(round));
-  const std::vector<fs::path> complete = list_checkpoints(options_.folder);
-  for (std::size_t i = options_.keep; i < complete.size(); ++i) fs::remove_all(complete[i]);
+  rename_durably(unfinished(round), place("round", round));
+  tidy(round);
+}
+
+/// The newest of this run stay. Later ones are left from before it began anew: what was written between here and there
+/// is written over, so it must not go on from them.
+void Checkpoints::tidy(std::int64_t round) const {
+  std::size_t kept = 0;
+  for (const fs::path& checkpoint : list_checkpoints(options_.folder, options_.run)) {
+    const std::int64_t made = origin_of(checkpoint).value().round;
+    if (made > round)
+      rename_durably(checkpoint, place("earlier", made));
+    else if (++kept > options_.keep)
+      fs::remove_all(checkpoint);
+  }
 }
 
 std::int64_t Checkpoints::restore(const fs::path& folder, Model& model, Rebalance& balance) {
@@ -184,7 +227,7 @@ std::int64_t Checkpoints::restore(const fs::path& folder, Model& model, Rebalanc
     read_all(folder, manifest, model, balance, transport_);
     last_round_ = manifest.at("round").get<std::int64_t>();
   } catch (const std::exception& e) {
-    problem = e.what() + alternative(folder);
+    problem = e.what() + alternative(folder, options_.run);
   }
   agree(transport_, problem);
   return last_round_;

@@ -20,7 +20,7 @@ struct CheckpointOptions {
   std::filesystem::path folder;  ///< of all checkpoints; seen by all ranks
   std::int64_t every = 0;        ///< rounds from one checkpoint to the next, at least; 0: none
   std::string run;               ///< what is computed: a checkpoint of something else is refused
-  std::size_t keep = 2;          ///< older ones are removed
+  std::size_t keep = 2;          ///< older ones of this run are removed
 };
 
 /// Why a checkpoint cannot be used, and which one could be used instead.
@@ -31,7 +31,8 @@ class CheckpointError : public std::runtime_error {
 
 /// A checkpoint is a folder: one file per sub-model, one for what all share, and a manifest with the checksum (XXH3-64)
 /// of each. It is written under another name in the background and gets its name when everything is on disk, so it is
-/// complete or absent. Collective unless said otherwise.
+/// complete or absent. Those of other runs in the same folder stay. Later ones of this run, which it is about to make
+/// anew, are renamed to earlier_*. Collective unless said otherwise.
 class Checkpoints {
  public:
   Checkpoints(const CheckpointOptions& options, Transport& transport);
@@ -54,7 +55,8 @@ class Checkpoints {
   using Files = std::map<std::string, Bytes>;
 
   void begin(Model& model, const Rebalance& balance, std::int64_t next_round);
-  std::filesystem::path folder_of(std::int64_t round) const;
+  std::filesystem::path place(const char* kind, std::int64_t round) const;
+  void tidy(std::int64_t round) const;
   std::filesystem::path unfinished(std::int64_t round) const;
 
   CheckpointOptions options_;
@@ -66,5 +68,7 @@ class Checkpoints {
 
 /// Complete checkpoints in `folder`, newest first. Not collective.
 std::vector<std::filesystem::path> list_checkpoints(const std::filesystem::path& folder);
+/// Those of one run (CheckpointOptions::run) only.
+std::vector<std::filesystem::path> list_checkpoints(const std::filesystem::path& folder, const std::string& run);
 
 }  // namespace moraine::runtime

@@ -25,21 +25,21 @@ class Checkpoint : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  runtime::Options options(runtime::Transport& transport) const {
+  runtime::Options options(runtime::Transport& transport, const std::string& of_run = "dam") const {
     runtime::Options o;
     o.threads = 1;
     o.transport = &transport;
     o.balance.balancer = "rotate";
-    o.checkpoint = {folder_, 10, "dam", 2};
+    o.checkpoint = {folder_, 10, of_run, 2};
     return o;
   }
 
   /// Runs until `end`, from the newest checkpoint if `restart`. Returns the hash.
-  std::uint64_t run(int ranks, std::int64_t end, bool restart) const {
+  std::uint64_t run(int ranks, std::int64_t end, bool restart, const std::string& of_run = "dam") const {
     std::uint64_t hash = 0;
     test::on_ranks({.ranks = ranks}, [&](runtime::Transport& transport) {
       CoupledModel model(scene_, transport);
-      runtime::Simulation simulation(model, options(transport));
+      runtime::Simulation simulation(model, options(transport, of_run));
       const std::int64_t first = restart ? simulation.restore(newest()) : 0;
       simulation.run(first, end - first);
       const auto states = model.states(0);
@@ -52,9 +52,7 @@ class Checkpoint : public testing::Test {
 
   void restore(const std::string& of_run = "dam") const {
     CoupledModel model(scene_);
-    runtime::Options o = options(runtime::alone());
-    o.checkpoint.run = of_run;
-    runtime::Simulation(model, o).restore(newest());
+    runtime::Simulation(model, options(runtime::alone(), of_run)).restore(newest());
   }
 
   std::string refusal(const std::string& of_run = "dam") const {
@@ -81,6 +79,29 @@ TEST_F(Checkpoint, GoesOnOnOtherRanksAsIfItHadNeverStopped) {
 TEST_F(Checkpoint, KeepsTheLastTwo) {
   run(1, 300, false);
   EXPECT_EQ(runtime::list_checkpoints(folder_).size(), 2U);
+}
+
+/// Whether they are of later rounds or of the same.
+TEST_F(Checkpoint, StaysIfOfAnotherRun) {
+  run(1, 300, false, "heap");
+  const std::vector<fs::path> others = runtime::list_checkpoints(folder_, "heap");
+  ASSERT_EQ(others.size(), 2U);
+  for (const std::int64_t end : {110, 300}) {
+    run(1, end, false);
+    EXPECT_FALSE(runtime::list_checkpoints(folder_, "dam").empty()) << end;
+    EXPECT_TRUE(runtime::list_checkpoints(folder_, "heap") == others) << end;
+  }
+  EXPECT_EQ(runtime::list_checkpoints(folder_).size(), 4U);
+}
+
+TEST_F(Checkpoint, IsSetAsideByTheSameRunBegunAnew) {
+  const std::uint64_t whole = run(1, 300, false);
+  const std::string last = newest().filename().string();
+  run(1, 110, false);
+  EXPECT_LT(newest().filename().string(), last);
+  const fs::path aside = folder_ / ("earlier_" + last.substr(std::string("round_").size()));
+  EXPECT_TRUE(fs::exists(aside / "manifest.json")) << aside.string();
+  EXPECT_EQ(run(1, 300, true), whole);
 }
 
 TEST_F(Checkpoint, IsRefusedIfDamagedAndTheOneBeforeIsOffered) {

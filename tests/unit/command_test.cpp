@@ -235,6 +235,33 @@ TEST_F(Command, WrongEnvironmentIsNamed) {
   expect_input_error(run(good, "", "export MORAINE_THREADS=lots"), "MORAINE_THREADS");
 }
 
+TEST_F(Command, RefusesOptionsWithoutAValue) {
+  for (const char* flag : {"--restart", "--threads", "--steps", "--trace", "--engine"})
+    expect_input_error(run(good, std::string(flag) + " ''"), std::string(flag) + ": is empty");
+  expect_input_error(run(good, "", "export MORAINE_RESTART="), "MORAINE_RESTART run.restart: 'run.restart' is empty");
+}
+
+/// The checkpoint is of step 10 or later.
+TEST_F(Command, RefusesToGoOnFromBeyondTheEnd) {
+  ASSERT_EQ(run(good, "--steps 200 --sub-models 2 --checkpoint-every 10").status, 0);
+  expect_input_error(run(good, "--steps 5 --sub-models 2 --restart latest"),
+                     "expected at most the 5 steps of this run");
+  EXPECT_EQ(summary().at("steps"), 200) << "nothing is written over";
+}
+
+TEST_F(Command, GoesOnFromTheLatestCheckpointOfItsOwn) {
+  const std::string options = "--sub-models 2 --checkpoint-every 10 ";
+  ASSERT_EQ(run(good, options + "--steps 200").status, 0);
+  const std::string whole = summary().at("state_hash");
+  std::filesystem::remove_all(out());
+  ASSERT_EQ(run(good, options + "--steps 300 --set height=1.1").status, 0);
+  ASSERT_EQ(run(good, options + "--steps 100").status, 0);
+  const Ended ended = run(good, options + "--steps 200 --restart latest");
+  EXPECT_EQ(ended.status, 0) << ended.text;
+  EXPECT_EQ(summary().at("state_hash"), whole);
+  expect_input_error(run(good, options + "--steps 400 --restart latest --set height=1.05"), "of another run");
+}
+
 TEST_F(Command, ThreadsAndSchedulersDoNotChangeTheHash) {
   ASSERT_EQ(run(good, "--steps 40 --sub-models 2 --threads 1").status, 0);
   const std::string hash = summary().at("state_hash");

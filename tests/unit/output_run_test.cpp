@@ -75,6 +75,26 @@ TEST(BackgroundWriter, PassesErrorsOnOnce) {
   EXPECT_NO_THROW(writer.finish());
 }
 
+TEST(BackgroundWriter, KeepsTheFirstPictureOverARestart) {
+  const sample::Folder folder("background_restart");
+  Scene scene = sample::scene();
+  scene.output.picture_width = 300;
+  const auto write = [&](std::initializer_list<std::int64_t> steps) {
+    BackgroundWriter writer(scene, folder.path());
+    for (const std::int64_t step : steps) writer.push(sample::frame(scene, step));
+    writer.finish();
+  };
+  write({0, 60});
+  const auto first = read_png(folder / "first.png").pixels;
+  scene.run.restart = "latest";
+  write({120});
+  EXPECT_TRUE(read_png(folder / "first.png").pixels == first);
+  EXPECT_FALSE(read_png(folder / "last.png").pixels == first);
+  scene.run.restart.clear();
+  write({120});
+  EXPECT_FALSE(read_png(folder / "first.png").pixels == first) << "a run from the start writes over it";
+}
+
 TEST(BackgroundWriter, RefusesUnknownFormats) {
   const sample::Folder folder("background_format");
   Scene scene = sample::scene();

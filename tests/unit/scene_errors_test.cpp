@@ -64,6 +64,14 @@ const std::vector<Wrong> wrong_values = {
     {"zero_dt", "time: {dt: 0, steps: 1}", "scene.yaml:1:12: 'time.dt' is 0, expected more than 0"},
     {"zero_substeps", "time: {dt: 1, steps: 1, substeps: 0}",
      "scene.yaml:1:35: 'time.substeps' is 0, expected a whole number of at least 1"},
+    {"too_many_rounds", "time: {dt: 1, steps: 1e15, substeps: 1e4}",
+     "scene.yaml:1:38: 1000000000000000 steps of 10000 substeps cannot be counted, expected at most 922337203685477 "},
+    {"too_many_rounds_of_a_duration", "time: {dt: 1, duration: 1e15, substeps: 1e4}",
+     "scene.yaml:1:41: 1000000000000000 steps of 10000 substeps cannot be counted"},
+    {"too_many_threads", "time: {dt: 1, steps: 1}\nrun: {threads: 2e9}",
+     "scene.yaml:2:16: 'run.threads' is 2000000000, expected a whole number of at most 4096"},
+    {"too_wide_a_picture", "time: {dt: 1, steps: 1}\noutput: {picture_width: 4097}",
+     "scene.yaml:2:25: 'output.picture_width' is 4097, expected a whole number of at most 4096"},
     {"inverted_box", scene_with("{packing: hcp, shape: {sphere: 1}, box: [[0, 0, 5], [9, 9, 1]]}"),
      "scene.yaml:3:45: 'elements.0.box' has no volume"},
     {"flat_hull", scene_with("{packing: list, shape: {hull: {points: [[0,0,0],[1,0,0],[0,1,0],[1,1,0]]}}, items: []}"),
@@ -180,6 +188,9 @@ TEST(SceneErrors, AnOverrideNamesItsOrigin) {
   };
   EXPECT_EQ(error("run.threads", "-1", "MORAINE_THREADS"),
             "MORAINE_THREADS run.threads: 'run.threads' is -1, expected a whole number of at least 0");
+  EXPECT_EQ(error("run.restart", "", "--restart"), "--restart run.restart: 'run.restart' is empty, expected a text");
+  EXPECT_EQ(error_of("time: {dt: 1, steps: 1e15}", {{"time.substeps", "1e9", "--substeps"}}).substr(0, 27),
+            "--substeps time.substeps: 1");
   EXPECT_EQ(error("size", "nan").substr(0, 28), "--set size: parameter 'size'");
   EXPECT_EQ(error("run.engin", "ode").substr(0, 37), "--set run.engin: unknown key 'engin',");
   EXPECT_EQ(error("sice", "2").substr(0, 68), "--set sice=2: 'sice' is neither a parameter (size) nor a key of the ");
