@@ -12,6 +12,7 @@
 #include "output/scene_table.hpp"
 #include "output/vtu.hpp"
 #include "output/writers.hpp"
+#include "physics/errors.hpp"
 
 namespace moraine {
 namespace {
@@ -77,11 +78,21 @@ VtuGrid bond_grid(const Scene& scene, const Frame& frame) {
   return grid;
 }
 
-/// One group's index, rewritten with every frame. After a restart it goes on with the frames written before.
+void remove_file(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::remove(path, error);
+  if (error) throw IoError(fmt::format("{}: cannot remove: {}", path.string(), error.message()));
+}
+
+/// One group's index, rewritten with every frame. After a restart it goes on with the frames written before. A run from
+/// the start removes that of an earlier one: it may have had groups that this one lacks.
 class Index {
  public:
   Index(const Scene& scene, const std::filesystem::path& folder, const char* group) : folder_(folder), group_(group) {
-    if (goes_on(scene, path())) read();
+    if (goes_on(scene, path()))
+      read();
+    else
+      remove_file(path());
   }
   void write(const Frame& frame, const VtuGrid& grid) {
     const std::string name = fmt::format("{}/{}", kFrames, frame_name(group_, frame.step, "vtu"));

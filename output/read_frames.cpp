@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <regex>
 
 #include "output/file.hpp"
@@ -15,26 +16,14 @@
 namespace moraine {
 namespace {
 
-struct Entry {
-  double time;
-  std::string file;
-};
+using FilesByTime = std::map<double, std::string>;
 
-std::vector<Entry> read_index(const std::filesystem::path& path) {
+FilesByTime read_index(const std::filesystem::path& path) {
   static const std::regex entry("<DataSet timestep=\"([^\"]*)\" part=\"0\" file=\"([^\"]*)\"/>");
   const std::string text = read_file(path);
-  std::vector<Entry> entries;
+  FilesByTime files;
   for (std::sregex_iterator at(text.begin(), text.end(), entry), end; at != end; ++at) {
-    entries.push_back({std::strtod((*at)[1].str().c_str(), nullptr), (*at)[2].str()});
-  }
-  return entries;
-}
-
-std::vector<std::string> read_group(const std::filesystem::path& path, std::size_t expected) {
-  std::vector<std::string> files;
-  for (Entry& entry : read_index(path)) files.push_back(std::move(entry.file));
-  if (files.size() < expected) {
-    throw IoError(fmt::format("{}: holds {} frames, expected {}", path.string(), files.size(), expected));
+    files[std::strtod((*at)[1].str().c_str(), nullptr)] = (*at)[2].str();
   }
   return files;
 }
@@ -75,14 +64,22 @@ void read_moment(const VtuGrid& grid, Frame& frame) {
 
 }  // namespace
 
+/// The indices are replaced one after the other, so one may be a frame ahead: only what all of them have counts.
 RecordedRun::RecordedRun(std::filesystem::path folder) : folder_(std::move(folder)), scene_(read_scene_table(folder_)) {
-  for (Entry& entry : read_index(folder_ / "elements.pvd")) {
-    times_.push_back(entry.time);
-    elements_.push_back(std::move(entry.file));
+  const FilesByTime elements = read_index(folder_ / "elements.pvd"), ghosts = read_index(folder_ / "ghosts.pvd");
+  const bool bonded = std::filesystem::exists(folder_ / "bonds.pvd");
+  const FilesByTime bonds = bonded ? read_index(folder_ / "bonds.pvd") : FilesByTime{};
+  for (const auto& [time, file] : elements) {
+    if (!ghosts.contains(time) || (bonded && !bonds.contains(time))) continue;
+    times_.push_back(time);
+    elements_.push_back(file);
+    ghosts_.push_back(ghosts.at(time));
+    if (bonded) bonds_.push_back(bonds.at(time));
   }
-  if (times_.empty()) throw IoError(fmt::format("{}: holds no frames", (folder_ / "elements.pvd").string()));
-  ghosts_ = read_group(folder_ / "ghosts.pvd", size());
-  if (std::filesystem::exists(folder_ / "bonds.pvd")) bonds_ = read_group(folder_ / "bonds.pvd", size());
+  if (times_.empty()) {
+    throw IoError(fmt::format("{}: holds no frames that the indices of ghosts and bonds have as well",
+                              (folder_ / "elements.pvd").string()));
+  }
 }
 
 Frame RecordedRun::frame(std::size_t number) const {

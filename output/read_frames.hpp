@@ -12,7 +12,8 @@ namespace moraine {
 /// The recorded frames of a folder written by the pvd format, without its scene file.
 class RecordedRun {
  public:
-  /// Reads the shape table and the index. Errors: IoError naming the path, also if there are no frames.
+  /// Reads the shape table and the indices, and keeps the frames that all groups have. Errors: IoError naming the path,
+  /// also if there are no frames.
   explicit RecordedRun(std::filesystem::path folder);
 
   /// Name, gravity, time label, shapes and boundaries; no elements, materials or bonds.

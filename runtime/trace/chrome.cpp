@@ -2,9 +2,10 @@
 #include "runtime/trace/chrome.hpp"
 
 #include <fmt/format.h>
-#include <fmt/os.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <unordered_map>
 
 #include "runtime/trace/settings_text.hpp"
@@ -108,15 +109,17 @@ void read_rows(const Json& json, std::vector<Record>& list) {
 class Writer {
  public:
   Writer(const Trace& trace, const std::filesystem::path& file)
-      : trace_(trace), index_(trace.lists.tasks), out_(fmt::output_file(file.string())) {}
+      : trace_(trace), index_(trace.lists.tasks), path_(file), out_(file) {}
 
+  /// A failed write makes the stream refuse all that follow, so that one look at the end is enough.
   void write() {
-    out_.print("{{\"displayTimeUnit\":\"ms\",\"moraine\":{},\n\"traceEvents\":[\n", rest().dump());
+    print("{{\"displayTimeUnit\":\"ms\",\"moraine\":{},\n\"traceEvents\":[\n", rest().dump());
     names();
     for (const PhaseRecord& p : trace_.lists.phases) phase(p);
     for (const TaskRecord& t : trace_.lists.tasks) task(t);
-    out_.print("\n]}}\n");
+    print("\n]}}\n");
     out_.close();
+    if (!out_) throw std::runtime_error(fmt::format("{}: cannot write the trace", path_.string()));
   }
 
  private:
@@ -127,10 +130,15 @@ class Writer {
   }
 
   template <class... Values>
+  void print(fmt::format_string<Values...> text, Values&&... values) {
+    out_ << fmt::format(text, std::forward<Values>(values)...);
+  }
+
+  template <class... Values>
   void event(fmt::format_string<Values...> text, Values&&... values) {
-    out_.print("{}", first_ ? "" : ",\n");
+    out_ << (first_ ? "" : ",\n");
     first_ = false;
-    out_.print(text, std::forward<Values>(values)...);
+    print(text, std::forward<Values>(values)...);
   }
 
   void name_row(int rank, int row, const std::string& name) {
@@ -172,7 +180,8 @@ class Writer {
 
   const Trace& trace_;
   TaskIndex index_;
-  fmt::ostream out_;
+  std::filesystem::path path_;
+  std::ofstream out_;
   bool first_ = true;
   std::size_t arrows_ = 0;
 };

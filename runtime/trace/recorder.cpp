@@ -16,11 +16,15 @@ Recorder::Recorder(const TraceOptions& options, const TraceSettings& settings, T
 }
 
 Recorder::~Recorder() {
-  std::error_code ignored;
-  if (writer_ && is_chrome_file(options_.file)) std::filesystem::remove(raw_file(), ignored);
+  if (!writer_ || !is_chrome_file(options_.file)) return;
+  try {
+    if (unconverted_) make_json();
+    std::filesystem::remove(raw_file());
+  } catch (...) {  // the compact form stays
+  }
 }
 
-/// JSON is made from the compact form when all is known.
+/// JSON is made from the compact form when all is known, or when the run has failed.
 std::filesystem::path Recorder::raw_file() const {
   std::filesystem::path file = options_.file;
   return is_chrome_file(file) ? file.replace_extension(".part") : file;
@@ -89,6 +93,7 @@ void Recorder::collect_tasks() {
 
 void Recorder::flush() {
   collect_tasks();
+  unconverted_ = true;
   for (const Bytes& packed : transport_.gather(0, pack(lists_))) writer_->append(packed);
   lists_ = {};
   unwritten_rounds_ = 0;
@@ -98,7 +103,12 @@ void Recorder::finish() {
   flush();
   if (!writer_) return;
   writer_->finish();
-  if (is_chrome_file(options_.file)) write_chrome(read_trace_file(raw_file()), options_.file);
+  if (is_chrome_file(options_.file)) make_json();
+}
+
+void Recorder::make_json() {
+  write_chrome(read_trace_file(raw_file()), options_.file);
+  unconverted_ = false;
 }
 
 }  // namespace moraine::runtime

@@ -33,6 +33,7 @@ class Recorder final : public TaskObserver {
   /// Errors: std::runtime_error if it cannot be written.
   Recorder(const TraceOptions& options, const TraceSettings& settings, Transport& transport, int workers);
 
+  /// JSON of a run that failed is made here; if that is not possible, the compact form stays beside it, as .part.
   ~Recorder() override;
 
   /// Whether the coming epoch is traced. Called by all ranks.
@@ -67,6 +68,7 @@ class Recorder final : public TaskObserver {
   bool in_window(const Epoch& epoch) const;
   void collect_tasks();
   std::filesystem::path raw_file() const;
+  void make_json();
 
   TraceOptions options_;
   Transport& transport_;
@@ -77,6 +79,7 @@ class Recorder final : public TaskObserver {
   std::int64_t in_window_ = 0;         ///< epochs so far
   std::int64_t unwritten_rounds_ = 0;
   bool recording_ = false;
+  bool unconverted_ = false;  ///< the compact form holds more than the JSON
 };
 
 }  // namespace moraine::runtime

@@ -143,7 +143,7 @@ class TraceReader {
     Trace trace;
     trace.complete = false;
     bool known = false;
-    for (BlockHead head{}; !trace.complete && take(&head, sizeof head) && head.length <= left_;) {
+    for (BlockHead head{}; take(&head, sizeof head) && head.length <= left_;) {
       content_.resize(head.length);
       take(content_.data(), content_.size());
       if (XXH3_64bits(content_.data(), content_.size()) != head.checksum) refuse("is damaged: a checksum is wrong");
@@ -157,9 +157,9 @@ class TraceReader {
 
  private:
   void add(TraceWriter::Kind kind, Trace& trace) {
-    if (kind == TraceWriter::Kind::end)
-      trace.complete = true;
-    else if (kind == TraceWriter::Kind::settings)
+    trace.complete = kind == TraceWriter::Kind::end;
+    if (trace.complete) return;
+    if (kind == TraceWriter::Kind::settings)
       trace.settings = read_settings({reinterpret_cast<const char*>(content_.data()), content_.size()});
     else if (kind == TraceWriter::Kind::lists)
       unpack(content_, trace.lists);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Traces in files: the compact binary form. A head, then blocks, each with its length and checksum: settings first,
-// then lists as they come, last an empty block that says that the run ended.
+// then lists as they come, last an empty block that says that the run ended. If it went on, more follow.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +31,7 @@ class TraceWriter {
   TraceWriter(const std::filesystem::path& file, const TraceSettings& settings);
   /// Lists that pack() has packed. They are in the file when this returns.
   void append(std::span<const std::byte> packed);
-  /// The run has ended: the trace is complete.
+  /// The run has ended: the trace is complete, unless more is appended.
   void finish();
 
  private:

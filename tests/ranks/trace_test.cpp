@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -21,12 +22,16 @@ using test::RandomGossip;
 
 class Traced : public testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(file_); }
+  void TearDown() override {
+    std::filesystem::remove(file_);
+    std::filesystem::remove(part());
+  }
 
-  std::vector<std::uint64_t> run(const TraceOptions& trace) {
+  std::vector<std::uint64_t> run(const TraceOptions& trace, const std::function<void(RandomGossip&)>& prepare = {}) {
     std::vector<std::uint64_t> memories(7);
     moraine::test::on_ranks({.ranks = 3, .shuffled = true}, [&](Transport& transport) {
       RandomGossip model(3, memories.size());
+      if (prepare) prepare(model);
       Options options{.threads = 2, .transport = &transport, .trace = trace};
       options.balance.balancer = "rotate";
       Simulation(model, options).run(0, 60);
@@ -39,6 +44,8 @@ class Traced : public testing::Test {
     file_ = std::filesystem::temp_directory_path() / ("moraine_traced_" + name);
     return {.file = file_, .title = "gossip"};
   }
+  /// The compact form, while there is no JSON.
+  std::filesystem::path part() const { return std::filesystem::path(file_).replace_extension(".part"); }
 
   std::filesystem::path file_;
 };
@@ -91,6 +98,32 @@ TEST_F(Traced, IsTheSameInJson) {
   EXPECT_EQ(again.lists.phases.size(), trace.lists.phases.size());
   EXPECT_EQ(again.lists.messages.size(), trace.lists.messages.size());
   EXPECT_EQ(again.settings.stages, trace.settings.stages);
+}
+
+TEST_F(Traced, JsonOfAFailedRunHoldsWhatWasWritten) {
+  const auto fail_late = [](RandomGossip& model) {
+    model.sub_model(5).on_task = [](int, const Round& round) {
+      if (round.number >= 40) throw std::runtime_error("no more");
+    };
+  };
+  EXPECT_THROW(run(to("failed.json"), fail_late), RunError);
+  const Trace trace = read_trace(file_);
+  EXPECT_FALSE(trace.complete);
+  ASSERT_FALSE(trace.lists.epochs.empty());
+  EXPECT_LE(trace.lists.epochs.back().first_round, 40);
+  EXPECT_EQ(profile_of(trace).sub_models.size(), 7U);
+  EXPECT_FALSE(std::filesystem::exists(part()));
+}
+
+TEST_F(Traced, KeepsTheCompactFormIfTheDiskIsFull) {
+  TraceOptions options = to("full.json");
+  std::filesystem::remove(file_);
+  std::filesystem::create_symlink("/dev/full", file_);
+  RandomGossip model(3, 7);
+  EXPECT_THROW(Simulation(model, {.threads = 2, .trace = options}).run(0, 20), std::runtime_error);
+  const Trace trace = read_trace(part());
+  EXPECT_TRUE(trace.complete);
+  EXPECT_FALSE(trace.lists.tasks.empty());
 }
 
 /// What viewers need: complete events with a time and a length that do not overlap in their row, and of every arrow one

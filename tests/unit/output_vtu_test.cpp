@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "output/file.hpp"
+#include "output/read_frames.hpp"
 #include "output/vtu.hpp"
 #include "output/writer.hpp"
 #include "output/zlib_blocks.hpp"
@@ -100,6 +101,35 @@ TEST(Pvd, VtkReadsArraysOfManyBlocks) {
   ASSERT_EQ(elements["points"].size(), 20000u);
   EXPECT_EQ(elements["points"][19999], json_of(frame.elements.state[19999].pose.position));
   EXPECT_EQ(elements["point_data"]["id"][19999], frame.elements.id[19999]);
+}
+
+/// What a kill between the indices leaves, and what one sees who reads just then.
+TEST(Pvd, IsReadAsFarAsAllGroupsHaveFrames) {
+  for (const char* behind : {"ghosts.pvd", "bonds.pvd"}) {
+    const sample::Folder folder("pvd_behind");
+    const Scene scene = sample::scene();
+    const auto writer = find_writer("pvd").make(scene, folder.path());
+    for (std::int64_t step : {0, 60}) writer->write(sample::frame(scene, step));
+    const std::string before = read_file(folder / behind);
+    writer->write(sample::frame(scene, 120));
+    replace_file(folder / behind, before);
+    const RecordedRun run(folder.path());
+    EXPECT_EQ(run.times(), (std::vector<double>{0, 30})) << behind;
+    EXPECT_EQ(run.frame(1).step, 60) << behind;
+  }
+}
+
+TEST(Pvd, ForgetsTheGroupsOfAnEarlierRun) {
+  const sample::Folder folder("pvd_earlier");
+  Scene scene = sample::scene();
+  find_writer("pvd").make(scene, folder.path())->write(sample::frame(scene, 0));
+  scene.bonds.clear();
+  const auto writer = find_writer("pvd").make(scene, folder.path());
+  for (std::int64_t step : {0, 60}) writer->write(sample::frame(scene, step));
+  EXPECT_FALSE(std::filesystem::exists(folder / "bonds.pvd"));
+  const RecordedRun run(folder.path());
+  EXPECT_EQ(run.times(), (std::vector<double>{0, 30}));
+  EXPECT_TRUE(run.frame(1).bonds.empty());
 }
 
 TEST(Pvd, NamesThePathItCannotWrite) {

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "runtime/trace/chrome.hpp"
+
 namespace moraine::runtime {
 namespace {
 
@@ -86,6 +88,29 @@ TEST_F(TraceFile, IsKeptAsFarAsItGoes) {
   trace = read_trace_file(path_);
   EXPECT_FALSE(trace.complete);
   EXPECT_EQ(trace.lists.tasks.size(), 1000U);
+}
+
+TEST_F(TraceFile, GoesOnIfTheRunDoes) {
+  TraceWriter writer(path_, settings_);
+  for (const std::uint32_t epoch : {0U, 1U}) {
+    writer.append(pack(sample(epoch)));
+    EXPECT_FALSE(read_trace_file(path_).complete) << epoch;
+    writer.finish();
+    const Trace trace = read_trace_file(path_);
+    EXPECT_TRUE(trace.complete) << epoch;
+    EXPECT_EQ(trace.lists.epochs.size(), epoch + 1);
+  }
+}
+
+TEST_F(TraceFile, AsJsonReportsAFullDisk) {
+  write(true);
+  const Trace trace = read_trace_file(path_);
+  try {
+    write_chrome(trace, "/dev/full");
+    FAIL() << "expected an error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "/dev/full: cannot write the trace");
+  }
 }
 
 TEST_F(TraceFile, IsRefusedIfDamaged) {
