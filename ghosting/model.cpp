@@ -235,7 +235,7 @@ runtime::EpochPlan CoupledModel::begin_epoch(std::int64_t next_round, std::int64
 }
 
 std::int64_t CoupledModel::marked_round() const {
-  return std::llround(averaged_from * static_cast<double>(scene().time.steps * scene().time.substeps));
+  return static_cast<std::int64_t>(averaged_from * static_cast<double>(scene().time.steps * scene().time.substeps));
 }
 
 void CoupledModel::conclude(std::int64_t round) { look(round, overlaps().max); }

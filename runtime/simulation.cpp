@@ -147,8 +147,8 @@ void Simulation::run_epoch(const Epoch& epoch) {
   phases_.enter(Phase::agree);
   const std::optional<RunError> first = first_failure(transport_, error);
   if (first) {
-    if (recorder_) recorder_->flush();
     transport_.drop_parcels();
+    if (recorder_) recorder_->flush();
     throw RunError(*first);
   }
   phases_.enter(Phase::balance);

@@ -6,6 +6,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <utility>
 
 #include "physics/errors.hpp"
@@ -18,7 +19,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
   file_ = error ? -1 : ::open((folder / ".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
   if (file_ < 0)
     throw InputError(fmt::format("{}: cannot write there, expected a folder for results (--out)", folder.string()));
-  if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
+  if (::flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;  // some file systems have no locks
   ::close(file_);
   throw InputError(
       fmt::format("{}: another study writes there, expected a folder of its own (--out)", folder.string()));

@@ -6,7 +6,7 @@
 
 namespace moraine::study {
 
-/// Holds a folder until it goes away, or the process does.
+/// Holds a folder until it goes away, or the process does; where the file system has no locks, nothing is held.
 class FolderLock {
  public:
   /// Makes the folder. Errors: InputError if it cannot be written, or if another study holds it.

@@ -146,7 +146,7 @@ std::string seeds_text(const SeedsNeeded& n) {
   if (n.of_setting) ways.push_back(fmt::format("{} seeds of it", *n.of_setting));
   if (n.of_both && !(n.of_setting && *n.of_setting <= *n.of_both))
     ways.push_back(fmt::format("{} seeds of it and of the reference", *n.of_both));
-  if (ways.empty()) return "it is too near to be decided by any number of seeds";
+  if (ways.empty()) return "no number of seeds is known that would decide";
   return fmt::format("about {} would decide", fmt::join(ways, " or "));
 }
 

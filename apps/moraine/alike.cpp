@@ -27,6 +27,7 @@ std::vector<std::string> agreed(const Scene& s) {
           fmt::format("owners [{}]", fmt::join(r.owners, ", ")),
           fmt::format("a checkpoint every {} steps", r.checkpoint_every),
           fmt::format("restart '{}'", r.restart),
+          fmt::format("folder '{}' for results", s.output.folder),
           fmt::format("trace '{}' of steps {}:{}:{}", r.trace, r.trace_window.from, r.trace_window.to,
                       r.trace_window.every),
           fmt::format("output every {} steps{}", s.output.every, s.output.quiet ? ", quiet" : "")};

@@ -78,7 +78,7 @@ output: {pictures: false, every: 0}
 )";
   for (const char* limit : {"1", "2", "3"}) {
     const Ended ended =
-        shell("timeout -k 1 60 " + test::mpirun(2, "--mca btl_vader_eager_limit 128 ") + MORAINE_COMMAND + " run " +
+        shell("timeout -k 1 90 " + test::mpirun(2, "--mca btl_vader_eager_limit 128 ") + MORAINE_COMMAND + " run " +
               out_.string() + "/scene.yaml --quiet --out " + out_.string() + " --set run.max_speed=" + limit);
     EXPECT_EQ(ended.status, 3) << ended.text;
   }

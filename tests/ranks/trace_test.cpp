@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A traced run: every task once, in an order that can be, in both forms, and the same results.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -41,7 +42,7 @@ class Traced : public testing::Test {
     return memories;
   }
   TraceOptions to(const std::string& name) {
-    file_ = std::filesystem::temp_directory_path() / ("moraine_traced_" + name);
+    file_ = std::filesystem::temp_directory_path() / ("moraine_traced_" + std::to_string(getpid()) + "_" + name);
     return {.file = file_, .title = "gossip"};
   }
   /// The compact form, while there is no JSON.

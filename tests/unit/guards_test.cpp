@@ -99,6 +99,13 @@ TEST(BoundaryForce, IsAMeanOverTheLastFifth) {
   }
 }
 
+TEST(BoundaryForce, IsKnownAfterOneStep) {
+  const std::string scene = spheres("{id: 1, at: [0, 0, 0.1]}", "restitution: 0", floor_at_zero);
+  ModelRun run(scene_of(scene, {set("run.engine", "impulse"), set("time.steps", 1)}));
+  run.go().conclude();
+  EXPECT_GT(run.model().statistics(1).boundary_force.z(), 1);
+}
+
 const std::string box = "boundaries: [{box: [[-1, -1, -1], [1, 1, 1]], triangulated: true}]\n";
 
 TEST(Guards, WarnOfTunnellingBeforeItHappens) {
@@ -111,7 +118,6 @@ TEST(Guards, WarnOfTunnellingBeforeItHappens) {
   EXPECT_TRUE(mentions(texts, "at least 2 substeps")) << texts[0];
 }
 
-/// In a step it goes from 0.17 m before the wall to 0.17 m behind it: engines do not look that far ahead.
 /// What falls far for its size does not run away: there is a floor down there.
 TEST(Guards, LetASmallBallFallFar) {
   const std::string scene = spheres("{id: 1, at: [0, 0, 50]}", "restitution: 0", floor_at_zero);
@@ -120,6 +126,7 @@ TEST(Guards, LetASmallBallFallFar) {
   EXPECT_NEAR(run.position(1).z(), 0.1, 0.01);
 }
 
+/// In a step it goes from 0.17 m before the wall to 0.17 m behind it: engines do not look that far ahead.
 TEST(Guards, StopWhenAnElementHasLeftItsContainer) {
   const std::string scene =
       spheres("{id: 4, at: [0.19, 0, 0], velocity: [90, 0, 0]}", "restitution: 1", weightless + box);

@@ -123,7 +123,7 @@ TEST(ErrorOfASetting, NamesSeedsOfTheReferenceIfThatAreFewer) {
   EXPECT_EQ(seeds_text({2864, 70}), "about 2864 seeds of it or 70 seeds of it and of the reference would decide");
   EXPECT_EQ(seeds_text({12, 12}), "about 12 seeds of it would decide");
   EXPECT_EQ(seeds_text({std::nullopt, 30}), "about 30 seeds of it and of the reference would decide");
-  EXPECT_EQ(seeds_text({}), "it is too near to be decided by any number of seeds");
+  EXPECT_EQ(seeds_text({}), "no number of seeds is known that would decide");
 }
 
 }  // namespace

@@ -49,8 +49,14 @@ def libraries(moraine):
     return [found[name] for name in sorted(found)]
 
 
-@functools.cache
 def digest(path):
+    state = os.stat(path)
+    return digest_of(path, state.st_mtime_ns, state.st_size)
+
+
+@functools.cache
+def digest_of(path, *state):
+    """A file is read again only if its state has changed."""
     with open(path, "rb") as f:
         return hashlib.sha256(f.read()).digest()
 

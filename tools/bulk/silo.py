@@ -73,4 +73,3 @@ def rows(results):
 CREEPS = "friction at the walls creeps as in the heap of C4, so they carry less"
 CAUSES = [("pressure", "ode", "", 0.5, CREEPS), ("K =", "ode", "", 0.16, CREEPS),
           ("pressure", "bullet64", "cut", 0.1, "0.03 more than it may be; K is as it is whole, and `bullet` cut alike has 1.12")]
-
