@@ -113,6 +113,20 @@ void agree(Transport& transport, const std::string& problem) {
     if (!told.empty()) throw CheckpointError(std::string(reinterpret_cast<const char*>(told.data()), told.size()));
 }
 
+struct Made {
+  fs::path folder;
+  std::int64_t round = 0;  ///< before which
+};
+
+/// Complete checkpoints of a run, newest first.
+std::vector<Made> made_by(const std::string& run, const fs::path& folder) {
+  std::vector<Made> found;
+  for (const fs::path& checkpoint : list_checkpoints(folder))
+    if (const auto origin = origin_of(checkpoint); origin && origin->run == run)
+      found.push_back({checkpoint, origin->round});
+  return found;
+}
+
 /// Another complete checkpoint of the run beside a bad one, as a hint.
 std::string alternative(const fs::path& bad, const std::string& run) {
   for (const fs::path& other : list_checkpoints(fs::absolute(bad).lexically_normal().parent_path(), run))
@@ -133,11 +147,8 @@ std::vector<fs::path> list_checkpoints(const fs::path& folder) {
 }
 
 std::vector<fs::path> list_checkpoints(const fs::path& folder, const std::string& run) {
-  std::vector<fs::path> found = list_checkpoints(folder);
-  std::erase_if(found, [&](const fs::path& checkpoint) {
-    const auto origin = origin_of(checkpoint);
-    return !origin || origin->run != run;
-  });
+  std::vector<fs::path> found;
+  for (const Made& c : made_by(run, folder)) found.push_back(c.folder);
   return found;
 }
 
@@ -210,12 +221,11 @@ void Checkpoints::finish() {
 /// is written over, so it must not go on from them.
 void Checkpoints::tidy(std::int64_t round) const {
   std::size_t kept = 0;
-  for (const fs::path& checkpoint : list_checkpoints(options_.folder, options_.run)) {
-    const std::int64_t made = origin_of(checkpoint).value().round;
-    if (made > round)
-      rename_durably(checkpoint, place("earlier", made));
+  for (const Made& made : made_by(options_.run, options_.folder)) {
+    if (made.round > round)
+      rename_durably(made.folder, place("earlier", made.round));
     else if (++kept > options_.keep)
-      fs::remove_all(checkpoint);
+      fs::remove_all(made.folder);
   }
 }
 
