@@ -20,12 +20,17 @@ std::vector<fs::path> plugin_places(std::string_view engine) {
   return {here / file, here / "lib/moraine" / file, here.parent_path() / "lib/moraine" / file};
 }
 
-MakeWorld load_plugin(std::string_view engine) {
+std::optional<fs::path> find_plugin(std::string_view engine) {
   const std::vector<fs::path> places = plugin_places(engine);
   const auto found = std::find_if(places.begin(), places.end(), [](const fs::path& p) { return fs::exists(p); });
-  if (found == places.end()) {
+  return found == places.end() ? std::nullopt : std::optional(*found);
+}
+
+MakeWorld load_plugin(std::string_view engine) {
+  const std::optional<fs::path> found = find_plugin(engine);
+  if (!found) {
     std::string looked;
-    for (const fs::path& p : places) looked += "\n  " + p.string();
+    for (const fs::path& p : plugin_places(engine)) looked += "\n  " + p.string();
     throw IoError(fmt::format("the library of engine {} is missing; looked for{}", engine, looked));
   }
   void* library = dlopen(found->c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include <algorithm>
 #include <chrono>
 #include <iostream>
 
@@ -24,11 +23,8 @@ std::string hash_of(std::string_view text) { return fmt::format("{:016x}", XXH3_
 /// Of the program and of the engines' libraries that it would load.
 std::string hash_of_program(const std::filesystem::path& program) {
   std::string all = read_file(program);
-  for (const Engine& engine : engines()) {
-    const auto places = plugin_places(engine.name);
-    const auto library = std::find_if(places.begin(), places.end(), [](const auto& p) { return exists(p); });
-    if (library != places.end()) all += read_file(*library);
-  }
+  for (const Engine& engine : engines())
+    if (const auto library = find_plugin(engine.name)) all += read_file(*library);
   return hash_of(all);
 }
 
