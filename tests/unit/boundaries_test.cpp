@@ -42,20 +42,22 @@ TEST(Boundaries, WhatIsPushedMeetsWhatWasFarAway) {
 
 /// One boundary of a hull and a box, each under an element of its own.
 TEST(Boundaries, CompoundsOfHullsAndOthersCarry) {
-  const std::string pyramid =
-      "{hull: {points: [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 0], [1, -1, "
-      "0], [1, 1, 0], [-1, 1, 0]]}, at: [-2, 0, 0]}";
-  for (const std::string& parts :
-       {pyramid + ", {box: [2, 2, 2], at: [2, 0, -1]}", "{box: [2, 2, 2], at: [2, 0, -1]}, " + pyramid})
+  const std::string hull =
+      "{hull: {points: [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 0], [1, -1, 0], [1, 1, 0], "
+      "[-1, 1, 0]]}, at: [-2, 0, 0]}";
+  const std::string box = "{box: [2, 2, 2], at: [2, 0, -1]}";
+  for (const std::string& parts : {hull + ", " + box, box + ", " + hull})
     for (const char* shape : {"{box: [0.2, 0.2, 0.2]}", "{sphere: 0.1}"})
       for (const char* engine : {"bullet", "ode"}) {
-        const std::string scene = fmt::format(
-            "materials: {{ball: {{density: 1000, friction: 0.5}}}}\nelements:\n  - {{packing: list, shape: {}, items: "
-            "[{{id: "
-            "1, at: [-2, 0, 0.11]}}, {{id: 2, at: [2, 0, 0.11]}}]}}\nboundaries: [{{solid: {{compound: "
-            "[{}]}}}}]\ntime: {{dt: "
-            "2e-3, steps: 200}}\nrun: {{engine: {}}}\n",
-            shape, parts, engine);
+        const std::string scene = fmt::format(R"(
+materials: {{ball: {{density: 1000, friction: 0.5}}}}
+elements:
+  - {{packing: list, shape: {}, items: [{{id: 1, at: [-2, 0, 0.11]}}, {{id: 2, at: [2, 0, 0.11]}}]}}
+boundaries: [{{solid: {{compound: [{}]}}}}]
+time: {{dt: 2e-3, steps: 200}}
+run: {{engine: {}}}
+)",
+                                              shape, parts, engine);
         ModelRun run(scene_of(scene));
         run.go();
         for (const ElementId id : {1, 2}) EXPECT_NEAR(run.position(id).z(), 0.1, 5e-3) << engine << shape << id;
