@@ -14,6 +14,7 @@ class Sweep:
     engines: tuple
     settings: tuple          # of each run: pairs of parameter and value
     seeds: float = math.inf  # at most: one where an engine is dear
+    times: int = 1           # as many seeds as usual, where three differ by as much as the tolerance
     ways: tuple = tuple(SUB_MODELS)
 
 
@@ -29,6 +30,6 @@ def jobs_of(case, *sweeps, steps=SOFT_STEP):
             for engine in sweep.engines:
                 for how in ("whole",) if engine in UNCUT else sweep.ways:
                     for settings in sweep.settings:
-                        for seed in range(1, min(seeds, sweep.seeds) + 1):
+                        for seed in range(1, min(seeds * sweep.times, sweep.seeds) + 1):
                             yield Job(case, engine, how, seed, (*settings, *steps.get(engine, ())))
     return jobs

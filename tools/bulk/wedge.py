@@ -7,9 +7,9 @@ from .rows import ENGINES, row_of, with_settings
 from .sweep import Sweep, each, jobs_of
 
 TITLE = "C7 wedge"
-SETTLED, TICK = 40, 1 / math.sqrt(9.81)  # when the wall begins, in ticks
+LENGTH, PUSHED, SETTLED, TICK = 80, 4, 40, 1 / math.sqrt(9.81)
 
-jobs = jobs_of("wedge", Sweep(ENGINES, each("rough", 0, 1)))
+jobs = jobs_of("wedge", Sweep(("impulse",), each("rough", 0, 1)), Sweep(ENGINES[1:], each("rough", 0, 1), seeds=1))
 
 
 def slope(spheres, wall):
@@ -20,7 +20,7 @@ def slope(spheres, wall):
 def measure(folder, summary, settings):
     start, end = frames.at(folder, summary, SETTLED * TICK), frames.last(folder)
     moved = sum(s.x for s in start) / len(start) - sum(s.x for s in end) / len(end)
-    return {"before": slope(start, 40), "after": slope(end, 36), "moved": moved}
+    return {"before": slope(start, LENGTH), "after": slope(end, LENGTH - PUSHED), "moved": moved}
 
 
 def gained(result):
@@ -31,7 +31,7 @@ def rows(results):
     flat, rough = (with_settings(results, rough=n) for n in (0, 1))
     yield row_of("slope before [°]", "", "", flat, lambda r: r["before"], 0, 90)
     yield row_of("slope gained in 4 diameters [°]", "0: Buiter et al. (2016)", "± 1°", flat, gained, -1, 1)
-    yield row_of("way of its middle / way of the wall", "1: it slides as a whole", "", flat, lambda r: r["moved"] / 4, 0, 2)
+    yield row_of("way of its middle / way of the wall", "1: it slides as a whole", "", flat, lambda r: r["moved"] / PUSHED, 0, 2)
     yield row_of("slope gained on a rough base [°]", "rises with the base's friction: Dahlen (1984)", "> 1°", rough, gained, 1, 90)
 
 
