@@ -42,10 +42,18 @@ def misses(case_rows):
     return lines, unknown, idle
 
 
+def worse(case_rows):
+    """What an engine meets whole and misses cut."""
+    return [f"{case.TITLE}, {row.name} (`{engine}`)" for case, rows in case_rows.items() for row in rows
+            for engine, how in row.misses() if how == "cut" and (engine, "whole") in row.values and not row.missed((engine, "whole"))]
+
+
 def text(case_rows):
-    """Lines of the table and of the list; misses of which no cause is known; causes of which there is no miss."""
+    """Lines of the table and of the list; misses of which no cause is known; causes of which there is no miss; what is worse cut."""
     lines, *wrong = misses(case_rows)
-    return [*table(case_rows), "", "What is missed, and why:" if lines else "Nothing is missed.", "", *lines], *wrong
+    cut = worse(case_rows)
+    return [*table(case_rows), "", f"Met whole and missed cut: {'; '.join(cut) or 'nothing'}.", "",
+            "What is missed, and why:" if lines else "Nothing is missed.", "", *lines], *wrong, cut
 
 
 def write(lines):
