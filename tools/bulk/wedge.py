@@ -7,7 +7,7 @@ from .rows import row_of, with_settings
 from .sweep import Sweep, each, jobs_of
 
 TITLE = "C7 wedge"
-LENGTH, PUSHED, SETTLED, TICK = 80, 4, 40, 1 / math.sqrt(9.81)
+LENGTH, PUSHED, SETTLED, TICK = 80, 4, 40, 1 / math.sqrt(9.81)  # as in the scene: diameters; when the wall begins, in ticks
 
 BASES = each("rough", 0, 1)
 jobs = jobs_of("wedge", Sweep(("impulse", "soft_sphere"), BASES), Sweep(("bullet", "bullet64", "ode"), BASES, seeds=1))
@@ -31,7 +31,7 @@ def gained(result):
 def rows(results):
     flat, rough = (with_settings(results, rough=n) for n in (0, 1))
     yield row_of("slope before [°]", "", "", flat, lambda r: r["before"], 0, 90)
-    yield row_of("slope gained in 4 diameters [°]", "0: Buiter et al. (2016)", "± 1°", flat, gained, -1, 1)
+    yield row_of(f"slope gained in {PUSHED} diameters [°]", "0: Buiter et al. (2016)", "± 1°", flat, gained, -1, 1)
     yield row_of("way of its middle / way of the wall", "1: it slides as a whole", "", flat, lambda r: r["moved"] / PUSHED, 0, 2)
     yield row_of("slope gained on a rough base [°]", "rises with the base's friction: Dahlen (1984)", "> 1°", rough, gained, 1, 90)
 
