@@ -17,9 +17,9 @@ def launcher(ranks):
     return [] if ranks == 1 else ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none"]
 
 
-def run_into(out, moraine, scene, options, ranks=1):
-    """One run into a folder; returns its summary."""
-    command = launcher(ranks) + [moraine, "run", os.path.join(ROOT, "apps/scenes", scene + ".yaml"), "--out", out, "--quiet",
+def run_into(out, moraine, scene, options, before=()):
+    """One run into a folder; returns its summary. `before`: words before the command."""
+    command = [*before, moraine, "run", os.path.join(ROOT, "apps/scenes", scene + ".yaml"), "--out", out, "--quiet",
                "--output-every", "0", "--set", "output.pictures=false", "--set", "output.formats=[csv]"] + options
     subprocess.run(command, check=True)
     with open(os.path.join(out, "summary.json")) as f:
@@ -29,7 +29,7 @@ def run_into(out, moraine, scene, options, ranks=1):
 def run(moraine, scene, options, ranks=1):
     """One run; returns its summary."""
     with tempfile.TemporaryDirectory() as out:
-        return run_into(out, moraine, scene, options, ranks)
+        return run_into(out, moraine, scene, options, launcher(ranks))
 
 
 def measure(arguments, scene, cases):
