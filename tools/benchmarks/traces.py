@@ -6,7 +6,7 @@ import statistics
 import subprocess
 import tempfile
 
-from .runs import ROOT, SCHEDULERS, common, launcher
+from .runs import ROOT, SCHEDULERS, common, launcher, run_into
 
 REPLAYED = [(1, 1), (1, 2), (2, 1), (3, 1), (4, 1), (2, 2)]  # ranks, threads
 
@@ -14,10 +14,8 @@ REPLAYED = [(1, 1), (1, 2), (2, 1), (3, 1), (4, 1), (2, 2)]  # ranks, threads
 def traced(arguments, ranks, options, folder):
     """A traced dam in slabs; returns the trace."""
     trace = os.path.join(folder, "run.trace")
-    command = launcher(ranks) + [arguments.moraine, "run", os.path.join(ROOT, "apps/scenes/dam.yaml"), "--out", folder,
-                                 "--quiet", "--output-every", "0", "--set", "output.pictures=false", "--split", "slabs",
-                                 "--sub-models", "7", "--trace", trace] + common(arguments, 14_000, 64) + options
-    subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
+    run_into(folder, arguments.moraine, "dam", ["--split", "slabs", "--sub-models", "7", "--trace", trace, *common(arguments, 14_000, 64),
+                                                *options], launcher(ranks))
     return trace
 
 
